@@ -9,6 +9,7 @@
 
 #include "core/units.hpp"
 #include "metrology/plan/plan_names.hpp"
+#include "metrology/uncertainty/linear_uncertainty.hpp"
 #include "metrology/uncertainty/point_uncertainty.hpp"
 #include "report/form_parameter.hpp"
 
@@ -158,10 +159,22 @@ std::string parameters_text(const InspectionPlan& plan) {
   return text;
 }
 
-std::string uncertainty_text_of(const InspectionPlan& plan) {
+std::string uncertainty_text_of(const InspectionPlan& plan, const CmmModel& cmm,
+                                PointSource source) {
+  const bool is_zero = metrology::point_uncertainty(cmm).is_zero();
+  if (is_zero && source == PointSource::measured_points) {
+    return "not stated: nothing is said of how far the values are from the truth";
+  }
+  std::vector<std::string> unproven;
+  for (const PlannedCharacteristic& c : plan.characteristics) {
+    if (!is_zero && !metrology::is_coverage_proven(plan, c)) unproven.push_back(c.name);
+  }
   return std::string(
              "value +- U holds the true value in 95 % of measurements, by what is stated of the "
              "machine") +
+         (unproven.empty() ? ""
+                           : fmt::format("; not proven of {}, which rest on single touched points",
+                                         fmt::join(unproven, ", "))) +
          (plan.monte_carlo ? "; the interval is simulated (Monte Carlo)" : "");
 }
 
@@ -169,8 +182,9 @@ std::string decision_text(metrology::DecisionRule rule) {
   constexpr std::array<std::string_view, 2> kRules{
       "simple acceptance: the value is within the tolerance; U is not taken into account "
       "(ISO 14253-1 is not applied)",
-      "ISO 14253-1: pass where the whole uncertainty interval is within the tolerance, fail where "
-      "all of it is outside, uncertain otherwise"};
+      "ISO 14253-1: pass where value + U, and value - U of a value with two limits, is within the "
+      "tolerance, fail where all of value +- U is outside, uncertain otherwise and where U is not "
+      "proven or not stated"};
   return std::string(kRules.at(static_cast<std::size_t>(rule)));
 }
 
@@ -191,7 +205,7 @@ std::vector<Fact> measuring_statement(const InspectionPlan& plan, const CmmModel
   if (const std::string text = parameters_text(plan); !text.empty()) {
     facts.push_back({"parameter", "Form parameter", text});
   }
-  facts.push_back({"uncertainty", "Uncertainty", uncertainty_text_of(plan)});
+  facts.push_back({"uncertainty", "Uncertainty", uncertainty_text_of(plan, cmm, source)});
   facts.push_back({"decision_rule", "Decision rule", decision_text(plan.decision)});
   return facts;
 }

@@ -141,21 +141,28 @@ void write_errors(Page& page, const RunReport& report) {
   }
 }
 
+std::string uncertainty_cell(const metrology::CharacteristicResult& c) {
+  if (c.is_accuracy_unknown) return "-";
+  const std::string_view doubt = doubt_of(c);
+  return uncertainty_text(c.expanded_uncertainty) +
+         (doubt.empty() ? "" : fmt::format(" ({})", doubt));
+}
+
 void write_characteristics(Page& page, const RunReport& report) {
   const auto& characteristics = report.measurement.characteristics;
   if (characteristics.empty()) return;
   const bool has_nominal = std::any_of(characteristics.begin(), characteristics.end(),
                                        [](const auto& c) { return !nominal_text(c).empty(); });
   std::vector<std::vector<std::string>> rows;
-  rows.push_back({"Characteristic", "Value", "Nominal", "Tolerance", "U (95%)", "95 % interval",
+  rows.push_back({"Characteristic", "Value", "Nominal", "Tolerance",
+                  is_accuracy_unknown(report.measurement) ? "U" : "U (95%)", "95 % interval",
                   "Used", "Verdict"});
   for (const metrology::CharacteristicResult& c : characteristics) {
     const std::optional<double> used = used_share(c);
     const std::string plus_minus = c.nominal ? "+-" : "";
     rows.push_back({printable(name_text(c)), result_text(c) + " " + c.unit, nominal_text(c),
-                    plus_minus + value_text(c.tolerance, c.unit),
-                    uncertainty_text(c.expanded_uncertainty), interval_text(c),
-                    used ? fixed_text(100.0 * *used, 0) + " %" : "-", ""});
+                    plus_minus + value_text(c.tolerance, c.unit), uncertainty_cell(c),
+                    interval_text(c), used ? fixed_text(100.0 * *used, 0) + " %" : "-", ""});
   }
   const bool has_interval = std::any_of(characteristics.begin(), characteristics.end(),
                                         [](const auto& c) { return c.simulated.has_value(); });
@@ -196,7 +203,9 @@ void write_without_seam(Page& page, const RunReport& report) {
 
 void write_no_uncertainty(Page& page, const RunReport& report) {
   if (!has_no_uncertainty(report.measurement)) return;
-  page.labelled("", "U = 0: no error of the CMM is stated (e0 and l_per_um)");
+  page.labelled("", is_accuracy_unknown(report.measurement)
+                        ? "U is not known: no accuracy of the CMM is stated (--e0, --l-per-um)"
+                        : "U = 0: no error of the CMM is stated (e0 and l_per_um)");
 }
 
 void write_cycle(Page& page, const RunReport& report) {

@@ -19,6 +19,13 @@ std::string_view name_of(Outcome outcome) {
   return kNames.at(static_cast<std::size_t>(outcome));
 }
 
+std::string_view doubt_of(const metrology::CharacteristicResult& characteristic) {
+  const auto coverage = characteristic.coverage();
+  const bool is_doubtful =
+      coverage == metrology::Coverage::not_proven || coverage == metrology::Coverage::not_stated;
+  return is_doubtful ? metrology::name_of(*coverage) : std::string_view();
+}
+
 std::string counts_text(const metrology::Measurement& measurement) {
   std::array<std::size_t, 4> counts{};
   for (const auto& c : measurement.characteristics) {
@@ -38,6 +45,11 @@ bool has_no_uncertainty(const metrology::Measurement& measurement) {
   const auto& all = measurement.characteristics;
   return !all.empty() && std::all_of(all.begin(), all.end(),
                                      [](const auto& c) { return c.expanded_uncertainty == 0.0; });
+}
+
+bool is_accuracy_unknown(const metrology::Measurement& measurement) {
+  const auto& all = measurement.characteristics;
+  return std::any_of(all.begin(), all.end(), [](const auto& c) { return c.is_accuracy_unknown; });
 }
 
 }  // namespace frustum::report

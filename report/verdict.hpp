@@ -17,6 +17,10 @@ enum class Outcome { pass, fail, uncertain, not_measured };
 // "pass", "fail", "uncertain", "not measured".
 [[nodiscard]] std::string_view name_of(Outcome outcome);
 
+// What is to be said beside U where nothing tells how often value +- U holds the true value: "not
+// proven" or "not stated"; empty elsewhere.
+[[nodiscard]] std::string_view doubt_of(const metrology::CharacteristicResult& characteristic);
+
 // "6 pass, 1 fails, 1 uncertain": how many characteristics came to what, those that none came to
 // left out; empty without characteristics.
 [[nodiscard]] std::string counts_text(const metrology::Measurement& measurement);
@@ -24,5 +28,7 @@ enum class Outcome { pass, fail, uncertain, not_measured };
 // Every characteristic states an uncertainty of exactly 0: nothing is known of the machine that
 // measured, or it is ideal.
 [[nodiscard]] bool has_no_uncertainty(const metrology::Measurement& measurement);
+// A real machine measured, and nothing is stated of it.
+[[nodiscard]] bool is_accuracy_unknown(const metrology::Measurement& measurement);
 
 }  // namespace frustum::report

@@ -16,6 +16,16 @@ std::string number(std::optional<double> value) {
   return value && std::isfinite(*value) ? exact_decimal(*value) : std::string();
 }
 
+// None where nothing is stated of the machine.
+std::string uncertainty_field(const metrology::CharacteristicResult& c) {
+  return c.is_accuracy_unknown ? std::string() : number(c.expanded_uncertainty);
+}
+
+std::string coverage_field(const metrology::CharacteristicResult& c) {
+  const auto found = c.coverage();
+  return found ? std::string(metrology::name_of(*found)) : std::string();
+}
+
 // By the name of the characteristic, separated by blanks.
 std::unordered_map<std::string_view, std::string> features_by_name(
     const metrology::InspectionPlan& plan) {
@@ -33,16 +43,17 @@ std::string characteristics_csv(const metrology::Measurement& measurement,
                                 const metrology::InspectionPlan& plan) {
   std::string csv =
       "name,kind,features,value,nominal,deviation,tolerance,expanded_uncertainty,unit,verdict,"
-      "interval_low,interval_high\n";
+      "interval_low,interval_high,coverage\n";
   const auto features = features_by_name(plan);
   for (const metrology::CharacteristicResult& c : measurement.characteristics) {
     const auto named = features.find(c.name);
     csv += csv_field(c.name) + ',' + kind_text(c) + ',' +
            csv_field(named == features.end() ? std::string() : named->second) + ',' +
            number(c.value) + ',' + number(c.nominal) + ',' + number(deviation_of(c)) + ',' +
-           number(c.tolerance) + ',' + number(c.expanded_uncertainty) + ',' + c.unit + ',' +
+           number(c.tolerance) + ',' + uncertainty_field(c) + ',' + c.unit + ',' +
            std::string(name_of(outcome_of(c))) + ',' +
-           (c.interval ? number(c.interval->low) + ',' + number(c.interval->high) : ",") + '\n';
+           (c.interval ? number(c.interval->low) + ',' + number(c.interval->high) : ",") + ',' +
+           coverage_field(c) + '\n';
   }
   return csv;
 }

@@ -56,7 +56,11 @@ std::string time_text(const std::string& date) {
 
 // What a characteristic has no field of its own for, in one.
 std::string value_remark(const CharacteristicResult& c) {
-  return parameter_text(c.kind, c.parameter);
+  std::string text = parameter_text(c.kind, c.parameter);
+  if (const auto doubt = doubt_of(c); !doubt.empty()) {
+    text += fmt::format("{}coverage of the uncertainty: {}", text.empty() ? "" : "; ", doubt);
+  }
+  return text;
 }
 
 void describe(DfqText& dfq, std::size_t n, const CharacteristicResult& c) {

@@ -74,9 +74,12 @@ Json characteristic_json(const metrology::CharacteristicResult& characteristic) 
   json["expanded_uncertainty"] = json_number(characteristic.expanded_uncertainty);
   json["pass"] = characteristic.pass;
   json["verdict"] = metrology::name_of(characteristic.verdict());
+  if (const auto coverage = characteristic.coverage()) {
+    json["coverage"] = metrology::name_of(*coverage);
+  }
   if (const auto& interval = characteristic.interval) {
     json["interval"] = {json_number(interval->low), json_number(interval->high)};
-    json["coverage"] = metrology::name_of(interval->coverage);
+    json["interval_holds_value"] = characteristic.is_value_in_interval();
     json["standard_uncertainty"] = json_number(characteristic.standard_uncertainty);
   }
   if (const auto& simulated = characteristic.simulated) {

@@ -4,9 +4,9 @@
 //            "title","status":"pass|fail|uncertain","machine","features":[{"name","kind",
 //            "points","parameters",
 //            "form":{"value_um"}}],"characteristics":[{"name","kind","value","unit","tolerance",
-//            "expanded_uncertainty","pass","verdict":"pass|fail|uncertain","interval":[low, high],
-//            "standard_uncertainty","draws","stable"}], the last four where uncertainties are
-//            simulated,"timing":{name: seconds},"diagnostics":[..]}; names are added, never
+//            "expanded_uncertainty","pass","verdict":"pass|fail|uncertain","coverage","interval":
+//            [low, high],"interval_holds_value","standard_uncertainty","draws","stable"}], from
+//            coverage on where there is one, the last two where uncertainties are simulated,"timing":{name: seconds},"diagnostics":[..]}; names are added, never
 //            renamed.
 // Units    : as the names say (value_um, *_mm3); parameters mm and rad; axis ranges mm and deg;
 //            characteristics in their own unit.

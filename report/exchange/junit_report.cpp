@@ -4,6 +4,7 @@
 
 #include <pugixml.hpp>
 #include <sstream>
+#include <string_view>
 #include <unordered_set>
 
 #include "report/form_parameter.hpp"
@@ -21,7 +22,14 @@ class Suite {
  public:
   Suite(xml_node suite, std::string part) : suite_(suite), part_(std::move(part)) {}
 
-  void pass(const std::string& name) { add_case(name); }
+  // A test that passes has no message: what is doubtful of its uncertainty is its output.
+  void pass(const std::string& name, std::string_view doubt) {
+    xml_node node = add_case(name);
+    if (doubt.empty()) return;
+    node.append_child("system-out")
+        .text()
+        .set(fmt::format("coverage of the uncertainty: {}", doubt).c_str());
+  }
   void fail(const std::string& name, const char* type, const std::string& message) {
     ++failures_;
     add_fault(name, "failure", type, message);
@@ -67,16 +75,20 @@ std::string shortfall(const CharacteristicResult& c) {
   std::string text = fmt::format("{}{}value {} {}", parameter, parameter.empty() ? "" : ": ",
                                  result_text(c), c.unit);
   if (const std::string nominal = nominal_text(c); !nominal.empty()) text += ", nominal " + nominal;
-  text += fmt::format(", tolerance {}, expanded uncertainty {} (95 %)",
-                      value_text(c.tolerance, c.unit), uncertainty_text(c.expanded_uncertainty));
-  if (c.interval) text += fmt::format(", 95 % interval {}", interval_text(c));
+  text += fmt::format(", tolerance {}, expanded uncertainty ", value_text(c.tolerance, c.unit));
+  if (c.is_accuracy_unknown) return text + "not stated";
+  const bool is_proven = doubt_of(c).empty();
+  text += fmt::format("{} ({})", uncertainty_text(c.expanded_uncertainty),
+                      is_proven ? "95 %" : "coverage not proven");
+  if (c.interval)
+    text += fmt::format(", {}interval {}", is_proven ? "95 % " : "", interval_text(c));
   return text;
 }
 
 void add_characteristic(Suite& suite, const CharacteristicResult& c) {
   switch (outcome_of(c)) {
     case Outcome::pass:
-      return suite.pass(c.name);
+      return suite.pass(c.name, doubt_of(c));
     case Outcome::fail:
       return suite.fail(c.name, "out of tolerance", shortfall(c));
     case Outcome::uncertain:

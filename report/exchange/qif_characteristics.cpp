@@ -185,6 +185,17 @@ std::string_view status_of(const CharacteristicResult& result) {
   return kStatus.at(static_cast<std::size_t>(outcome_of(result)));
 }
 
+// How often value +- U holds the true value: the schema has no place for that.
+void add_coverage(xml_node measurement, const CharacteristicResult& result) {
+  const auto coverage = result.coverage();
+  if (!coverage) return;
+  const xml_node list = add(measurement, "Attributes");
+  xml_node node = add(list, "AttributeStr");
+  node.append_attribute("name") = "coverage";
+  node.append_attribute("value") = std::string(metrology::name_of(*coverage)).c_str();
+  close_list(list);
+}
+
 }  // namespace
 
 CharacteristicIds add_characteristics(xml_node root, const InspectionPlan& plan,
@@ -235,6 +246,7 @@ void add_measured_characteristics(xml_node results, const InspectionPlan& plan,
     const PlannedCharacteristic* planned = parts.characteristic(result.name);
     const xml_node node =
         add_identified(list, name_of_characteristic(row_of(result), "Measurement"), ids.next());
+    add_coverage(node, result);
     add_text(add(node, "Status"), "CharacteristicStatusEnum", status_of(result));
     add_reference(node, "CharacteristicItemId", items.at(result.name));
     add_feature_ids(node, "FeatureMeasurementIds", planned, features.measurements);
@@ -242,7 +254,7 @@ void add_measured_characteristics(xml_node results, const InspectionPlan& plan,
     if (!std::isfinite(result.value)) continue;
     const double standard = document_value(0.5 * result.expanded_uncertainty, result);
     xml_node value = add_number(node, "Value", document_value(result.value, result));
-    if (std::isfinite(standard)) {
+    if (std::isfinite(standard) && !result.is_accuracy_unknown) {
       value.append_attribute("combinedUncertainty") = exact_decimal(standard).c_str();
     }
   }

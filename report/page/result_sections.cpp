@@ -72,9 +72,44 @@ std::string value_cell(const Characteristic& c) {
                      c.without_seam->at * kDegPerRad, c.without_seam->within * kDegPerRad);
 }
 
-std::string uncertainty_cell(const Characteristic& c, bool is_unstated) {
-  const std::string text = with_unit(uncertainty_text(c.expanded_uncertainty), c.unit);
-  return is_unstated ? "<span>" + text + "<small>not stated</small></span>" : text;
+// `words` in small letters below.
+std::string remarked(const std::string& text, std::string_view words) {
+  return words.empty() ? text : fmt::format("<span>{}<small>{}</small></span>", text, words);
+}
+
+std::string page_uncertainty_cell(const Characteristic& c, bool is_unstated) {
+  const std::string text =
+      c.is_accuracy_unknown ? "–" : with_unit(uncertainty_text(c.expanded_uncertainty), c.unit);
+  return remarked(text, is_unstated ? "not stated" : doubt_of(c));
+}
+
+std::string interval_cell(const Characteristic& c) {
+  if (!c.interval) return "";
+  return remarked(with_unit(interval_text(c), c.unit),
+                  c.is_value_in_interval() ? "" : "corrected, without the value");
+}
+
+// What U and the interval say, and of which values they do not.
+std::string uncertainty_note(const std::vector<Characteristic>& all) {
+  std::string note =
+      "U is the expanded measurement uncertainty: value ± U holds the true value in 95\u202f% of "
+      "measurements";
+  const auto any = [&](auto holds) { return std::any_of(all.begin(), all.end(), holds); };
+  if (any([](const Characteristic& c) { return !doubt_of(c).empty(); })) {
+    note += "; of those beside which “not proven” stands that is not shown";
+  }
+  note += ".";
+  if (any([](const Characteristic& c) { return c.interval.has_value(); })) {
+    note +=
+        " The interval holds it too; of forms and zones, which noise makes larger, it reaches "
+        "farther down than up, and 95\u202f% is the least.";
+  }
+  if (any([](const Characteristic& c) { return !c.is_value_in_interval(); })) {
+    note +=
+        " One without the value is corrected for a known bias of the measurement; the value is "
+        "not.";
+  }
+  return note;
 }
 
 }  // namespace
@@ -106,7 +141,8 @@ std::string characteristics_html(const RunReport& report) {
   const bool intervals = std::any_of(
       all.begin(), all.end(), [](const Characteristic& c) { return c.interval.has_value(); });
   headings.emplace_back(">Tolerance");
-  headings.emplace_back(">U (95\u202f%)");
+  const bool is_unknown = is_accuracy_unknown(report.measurement);
+  headings.emplace_back(is_unknown ? ">U" : ">U (95\u202f%)");
   if (intervals) headings.emplace_back(">95\u202f% interval");
   headings.emplace_back(">Used");
   headings.emplace_back("Verdict");
@@ -122,8 +158,8 @@ std::string characteristics_html(const RunReport& report) {
       cells.push_back(nominal_text(c).empty() ? "" : with_unit(nominal_text(c), c.unit));
     }
     cells.push_back((c.nominal ? "± " : "") + with_unit(value_text(c.tolerance, c.unit), c.unit));
-    cells.push_back(uncertainty_cell(c, is_unstated));
-    if (intervals) cells.push_back(c.interval ? with_unit(interval_text(c), c.unit) : "");
+    cells.push_back(page_uncertainty_cell(c, is_unstated));
+    if (intervals) cells.push_back(interval_cell(c));
     cells.push_back(used_cell(c));
     cells.push_back(verdict_mark(c.verdict()));
     table.row(cells);
@@ -132,17 +168,17 @@ std::string characteristics_html(const RunReport& report) {
   for (const Fact& fact : report.evidence.measuring) {
     if (fact.key == "decision_rule") notes += "Decision rule: " + html_text(fact.value) + ". ";
   }
+  if (!is_unknown) notes += uncertainty_note(all) + " ";
   notes +=
-      "U is the expanded measurement uncertainty: value ± U holds the true value in 95\u202f% of "
-      "measurements. Used: share of the tolerance taken by the value, or by its distance from the "
-      "nominal where there is one.";
-  if (intervals) {
-    notes +=
-        " The interval holds it too; of forms and zones, which noise makes larger, it reaches "
-        "farther down than up, and 95\u202f% is the least.";
-  }
+      "Used: share of the tolerance taken by the value, or by its distance from the nominal where "
+      "there is one.";
   std::string warning;
-  if (is_unstated) {
+  if (is_unknown) {
+    warning =
+        "<p class=\"caution\"><b>U is not known: no accuracy of the CMM is stated.</b> Nothing is "
+        "said of how far the values are from the truth. State it by <code>--e0</code> and "
+        "<code>--l-per-um</code>, or by <code>--cmm</code>.</p>\n";
+  } else if (is_unstated) {
     warning =
         "<p class=\"caution\"><b>U = 0: no error of the CMM is stated.</b> The values are those of "
         "an ideal machine; no real CMM measures so. State one by <code>e0</code> and "

@@ -145,6 +145,26 @@ TEST(Evidence, ATimeOfUtcIsInEveryFormatThatHasAPlaceForIt) {
             std::string::npos);
 }
 
+TEST(Evidence, Fault2_52_ClaimsNoCoverageThatIsNotProvenOrNotStated) {
+  metrology::InspectionPlan plan;
+  metrology::PlannedCharacteristic square;
+  square.name = "wall.perpendicularity";
+  square.kind = metrology::CharacteristicKind::perpendicularity;
+  square.features = {"wall", "floor"};
+  metrology::PlannedCharacteristic touched = square;
+  touched.name = "wall.touched";
+  touched.datum_criterion = metrology::Criterion::outside_material;
+  plan.characteristics = {square, touched};
+  const auto uncertainty = [&](const metrology::CmmModel& cmm) {
+    return value_of(measuring_statement(plan, cmm, PointSource::measured_points), "uncertainty");
+  };
+  EXPECT_NE(uncertainty(stated_cmm()).find("not proven of wall.touched, which"), std::string::npos)
+      << uncertainty(stated_cmm());
+  EXPECT_EQ(uncertainty({}).substr(0, 11), "not stated:");
+  plan.characteristics = {square};
+  EXPECT_EQ(uncertainty(stated_cmm()).find("not proven"), std::string::npos);
+}
+
 TEST(Evidence, Fault2_38_IsTheSameInEveryFormat) {
   const RunReport report = told_report();
   const auto facts = all_facts(report.evidence, report.version);

@@ -1,8 +1,9 @@
 // The formats for tables, continuous integration and statistics.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <fstream>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
 #include "report/exchange/export_file.hpp"
@@ -29,10 +30,10 @@ TEST(CharacteristicsCsv, WritesOneLineEach) {
   EXPECT_EQ(
       exported(ExportFormat::csv, report, plan_of(report)),
       "name,kind,features,value,nominal,deviation,tolerance,expanded_uncertainty,unit,verdict,"
-      "interval_low,interval_high\n"
-      "cone.form,cone_form,\"cone A, upper\",12.3456,,12.3456,10,0.4,um,fail,,\n"
+      "interval_low,interval_high,coverage\n"
+      "cone.form,cone_form,\"cone A, upper\",12.3456,,12.3456,10,0.4,um,fail,,,\n"
       "cone.half_angle,half_angle,\"cone A, upper\",45.00123,45,0.0012299999999996203,0.01718,"
-      "0.0006872,deg,pass,,\n");
+      "0.0006872,deg,pass,,,\n");
 }
 
 // With intervals that their expanded uncertainties do not tell.
@@ -48,7 +49,7 @@ RunReport report_with_intervals() {
 TEST(CharacteristicsCsv, WritesTheInterval) {
   const RunReport report = report_with_intervals();
   const std::string csv = exported(ExportFormat::csv, report, {});
-  EXPECT_NE(csv.find("\ncone.form,cone_form,,12.3456,,12.3456,10,0.4,um,fail,11.5,15.25\n"),
+  EXPECT_NE(csv.find("\ncone.form,cone_form,,12.3456,,12.3456,10,0.4,um,fail,11.5,15.25,95 %\n"),
             std::string::npos)
       << csv;
 }
@@ -58,7 +59,7 @@ TEST(CharacteristicsCsv, LeavesEmptyWhatIsNoNumber) {
   report.measurement.characteristics.resize(1);
   report.measurement.characteristics[0].value = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(exported(ExportFormat::csv, report, {})
-                .find("\ncone.form,cone_form,,,,,10,0.4,um,not measured,,\n"),
+                .find("\ncone.form,cone_form,,,,,10,0.4,um,not measured,,,\n"),
             std::string::npos);
 }
 
@@ -148,6 +149,64 @@ TEST(Exports, NameTheParameterOfAForm) {
       EXPECT_EQ(text.find(word), std::string::npos) << word;
     }
   }
+}
+
+// Of the first the coverage of U is not proven; of the second nothing is stated.
+RunReport doubtful_report() {
+  RunReport report = report_with_intervals();
+  auto& all = report.measurement.characteristics;
+  all[0].interval->coverage = metrology::Coverage::not_proven;
+  all[1].interval.reset();
+  all[1].expanded_uncertainty = 0.0;
+  all[1].is_accuracy_unknown = true;
+  return report;
+}
+
+TEST(Exports, Fault2_52_NoneClaims95PercentOfWhatIsNotProvenOrNotStated) {
+  RunReport report = doubtful_report();
+  const std::string csv = exported(ExportFormat::csv, report, {});
+  EXPECT_NE(csv.find(",0.4,um,fail,11.5,15.25,not proven\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find(",0.01718,,deg,pass,,,not stated\n"), std::string::npos) << csv;
+  const std::string dfq = exported(ExportFormat::dfq, report, {});
+  EXPECT_NE(dfq.find("K2900/1 coverage of the uncertainty: not proven\n"), std::string::npos);
+  EXPECT_NE(dfq.find("K2900/2 coverage of the uncertainty: not stated\n"), std::string::npos);
+  auto document = junit(report, plan_of(report));
+  const pugi::xml_node form = document.child("testsuites").child("testsuite").first_child();
+  EXPECT_STREQ(form.child("failure").attribute("message").value(),
+               "value 12.346 um, tolerance 10.000, expanded uncertainty 0.40 (coverage not "
+               "proven), interval 11.500 .. 15.250");
+  EXPECT_STREQ(form.next_sibling().child("system-out").text().get(),
+               "coverage of the uncertainty: not stated");
+  report.measurement.characteristics[1].pass = false;
+  report.measurement.characteristics[1].uncertain = true;
+  document = junit(report, plan_of(report));
+  const pugi::xml_node angle = document.child("testsuites").child("testsuite").last_child();
+  EXPECT_THAT(angle.child("failure").attribute("message").value(),
+              testing::EndsWith("expanded uncertainty not stated"));
+  const auto json =
+      nlohmann::json::parse(exported(ExportFormat::json, report, {}))["characteristics"];
+  EXPECT_EQ(json[0]["coverage"], "not proven");
+  EXPECT_EQ(json[1]["coverage"], "not stated");
+}
+
+TEST(Exports, Fault2_52_QifMarksEachMeasurement) {
+  const RunReport report = doubtful_report();
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(exported(ExportFormat::qif, report, plan_of(report)).c_str()));
+  const auto measured = [&](const char* kind) {
+    return document.find_node([&](pugi::xml_node n) { return std::string(n.name()) == kind; });
+  };
+  const pugi::xml_node form = measured("ConicityCharacteristicMeasurement");
+  const pugi::xml_node angle = measured("AngleCharacteristicMeasurement");
+  for (const auto& [node, coverage] :
+       {std::pair(form, "not proven"), std::pair(angle, "not stated")}) {
+    const pugi::xml_node attribute = node.first_child().first_child();
+    EXPECT_STREQ(node.first_child().name(), "Attributes");
+    EXPECT_STREQ(attribute.attribute("name").value(), "coverage");
+    EXPECT_STREQ(attribute.attribute("value").value(), coverage);
+  }
+  EXPECT_TRUE(form.child("Value").attribute("combinedUncertainty"));
+  EXPECT_FALSE(angle.child("Value").attribute("combinedUncertainty"));
 }
 
 TEST(JunitReport, TellsErrorsFromFailures) {

@@ -155,6 +155,30 @@ TEST(HtmlReport, Fault2_45_TellsThatNoErrorOfTheCmmIsStated) {
   EXPECT_THAT(terminal_report(report), HasSubstr("U = 0: no error of the CMM is stated"));
 }
 
+TEST(HtmlReport, Fault2_52_SaysBesideUWhatIsNotProvenOrNotStated) {
+  RunReport report = sample_report();
+  EXPECT_THAT(html_report(report), Not(HasSubstr("not proven")));
+  EXPECT_THAT(terminal_report(report), Not(HasSubstr("not proven")));
+  auto& all = report.measurement.characteristics;
+  const double far = all[0].value + all[0].expanded_uncertainty;
+  all[0].interval = metrology::TrueValueInterval{0.0, far, metrology::Coverage::not_proven};
+  EXPECT_THAT(html_report(report), HasSubstr("<small>not proven</small>"));
+  EXPECT_THAT(html_report(report), HasSubstr("that is not shown"));
+  EXPECT_THAT(terminal_report(report), HasSubstr(" (not proven)"));
+  EXPECT_THAT(html_report(report), Not(HasSubstr("without the value")));
+  all[0].interval->low = far;
+  EXPECT_THAT(html_report(report), HasSubstr("<small>corrected, without the value</small>"));
+  all[0].interval.reset();
+  for (auto& c : all) {
+    c.expanded_uncertainty = 0.0;
+    c.is_accuracy_unknown = true;
+  }
+  const std::string page = html_report(report);
+  EXPECT_THAT(page, HasSubstr("U is not known: no accuracy of the CMM is stated"));
+  EXPECT_THAT(page, Not(HasSubstr("holds the true value")));
+  EXPECT_THAT(terminal_report(report), HasSubstr("U is not known"));
+}
+
 TEST(HtmlReport, Fault2_39_DrawsTheSymbolsOfIso1101) {
   for (const char* kind :
        {"straightness", "flatness", "roundness", "cylindricity", "line_profile", "surface_profile",
