@@ -107,7 +107,7 @@ TEST(OneStatement, Fault2_36_NothingIsDecidedOfAMachineOfWhichNothingIsKnown) {
     EXPECT_EQ(c.verdict(), Verdict::uncertain) << c.name;
     EXPECT_EQ(c.coverage(), Coverage::not_stated) << c.name;
   }
-  // A virtual machine without errors is ideal, and the value alone decides where no rule asks for U.
+  // A virtual machine without errors is ideal; without the rule the value alone decides.
   for (const CharacteristicResult& c : measured_lobed(plan, {}).characteristics) {
     EXPECT_EQ(c.verdict(), verdict_of(c, DecisionRule::simple)) << c.name;
     EXPECT_FALSE(c.coverage()) << c.name;
