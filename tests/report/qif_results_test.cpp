@@ -150,8 +150,8 @@ const std::map<std::string, std::vector<std::string>>& sequences() {
       {"DiameterCharacteristicItem",
        {"Name", "FeatureItemIds", "MeasurementDeviceIds", "CharacteristicNominalId"}},
       {"DiameterCharacteristicMeasurement",
-       {"Status", "CharacteristicItemId", "FeatureMeasurementIds", "SubstituteFeatureAlgorithm",
-        "Value"}}};
+       {"Attributes", "Status", "CharacteristicItemId", "FeatureMeasurementIds",
+        "SubstituteFeatureAlgorithm", "Value"}}};
   return kSequences;
 }
 
@@ -189,6 +189,7 @@ TEST(QifResults, CountsItsLists) {
                                     "MeasuredPointSets",
                                     "PointList",
                                     "CharacteristicMeasurements",
+                                    "Attributes",
                                     "FeatureMeasurementIds"};
   std::set<std::string> seen;
   walk(document.document_element(), [&](xml_node node) {
