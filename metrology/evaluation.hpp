@@ -18,7 +18,7 @@
 
 namespace frustum::metrology {
 
-// Of a real machine of which nothing is stated nothing is known; a virtual one of no errors is ideal.
+// A virtual machine without errors is ideal; a real one of which nothing is stated is unknown.
 enum class MeasuredBy { virtual_cmm, real_cmm };
 
 // `features` are in the workpiece frame. With uncertainties by simulation and verdicts by the rule

@@ -76,8 +76,8 @@ struct SimulatedUncertainty {
   bool stable = false;  // to the digits asked for, or as exact as that without noise
 };
 
-// How often an interval and value +- U hold the true value, as far as that is proven. not_stated: no
-// accuracy of the real machine is, so there is neither.
+// How often an interval and value +- U hold the true value, as far as that is proven. not_stated:
+// no accuracy of the real machine is, so there is neither.
 enum class Coverage { of_95, at_least_95, not_proven, not_stated };
 inline constexpr std::array<std::string_view, 4> kCoverageNames{"95 %", "at least 95 %",
                                                                 "not proven", "not stated"};

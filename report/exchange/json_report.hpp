@@ -6,8 +6,8 @@
 //            "form":{"value_um"}}],"characteristics":[{"name","kind","value","unit","tolerance",
 //            "expanded_uncertainty","pass","verdict":"pass|fail|uncertain","coverage","interval":
 //            [low, high],"interval_holds_value","standard_uncertainty","draws","stable"}], from
-//            coverage on where there is one, the last two where uncertainties are simulated,"timing":{name: seconds},"diagnostics":[..]}; names are added, never
-//            renamed.
+//            coverage on where there is one, the last two where uncertainties are simulated,
+//            "timing":{name: seconds},"diagnostics":[..]}; names are added, never renamed.
 // Units    : as the names say (value_um, *_mm3); parameters mm and rad; axis ranges mm and deg;
 //            characteristics in their own unit.
 // Errors   : none; a number that is not finite becomes null, bytes that are not UTF-8 are replaced.
