@@ -1,6 +1,9 @@
 #include "report/evidence.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
+#include <map>
 #include <utility>
 
 #include "core/sha256.hpp"
@@ -20,13 +23,25 @@ std::vector<Fact> stated(const metrology::ReportHeader& header) {
   return facts;
 }
 
+std::vector<Fact> made_and_measured(const Evidence& evidence) {
+  std::vector<Fact> facts = evidence.measuring;
+  if (const auto& draw = evidence.error_draw) {
+    facts.push_back({"error_draw", "Draw of the errors",
+                     fmt::format("seed {}, number {}", draw->seed, draw->index)});
+  }
+  return facts;
+}
+
 std::vector<Fact> all_facts(const Evidence& evidence, const std::string& version) {
   std::vector<Fact> facts = stated(evidence.header);
-  facts.insert(facts.end(), evidence.measuring.begin(), evidence.measuring.end());
+  for (Fact& fact : made_and_measured(evidence)) facts.push_back(std::move(fact));
   if (!version.empty()) facts.push_back({"version", "Made by", "Frustum " + version});
+  std::map<std::string, int> of_role;
   for (const HashedFile& file : evidence.files) {
-    facts.push_back(
-        {"sha256_" + file.role, "SHA-256 of the " + file.role + " " + file.name, file.sha256});
+    const int number = ++of_role[file.role];
+    const std::string which = number == 1 ? std::string() : fmt::format("_{}", number);
+    facts.push_back({"sha256_" + file.role + which, "SHA-256 of the " + file.role + " " + file.name,
+                     file.sha256});
   }
   return facts;
 }

@@ -4,6 +4,8 @@
 // Units: none; values are texts for people, with their units. Errors: none.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,7 +21,8 @@ struct Fact {
 };
 
 struct HashedFile {
-  std::string role{};    // "program", "plan", "job", "machine", "points", "mesh"
+  // "program", "subprogram", "plan", "job", "machine", "errors", "tools", "points", "mesh", ..
+  std::string role{};
   std::string name{};    // without folders, so that a report does not depend on where it was made
   std::string sha256{};  // of its bytes
 };
@@ -30,13 +33,21 @@ struct HashedFile {
 struct Evidence {
   metrology::ReportHeader header{};
   std::vector<Fact> measuring{};  // as measuring_statement() gives them
+  // Which draw of errors that are written as distributions.
+  struct Draw {
+    std::uint64_t seed = 0;
+    std::uint32_t index = 0;
+  };
+  std::optional<Draw> error_draw{};
   std::vector<HashedFile> files{};
 };
 
 // The facts of the head that are stated.
 [[nodiscard]] std::vector<Fact> stated(const metrology::ReportHeader& header);
+// Measuring, and the draw.
+[[nodiscard]] std::vector<Fact> made_and_measured(const Evidence& evidence);
 // All facts, the version of the program among them, in one order for every format: head, measuring,
-// "sha256_program" and so on.
+// draw, "sha256_program" and so on; of several files of a role "sha256_errors_2" is the second.
 [[nodiscard]] std::vector<Fact> all_facts(const Evidence& evidence, const std::string& version);
 
 }  // namespace frustum::report

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/sha256.hpp"
+#include "core/whole_file.hpp"
 #include "kinematics/controller/controller.hpp"
 #include "kinematics/controller/source_lines.hpp"
 #include "kinematics/errors/error_size.hpp"
@@ -71,6 +73,16 @@ Result<AxisSpans> error_spans(const TestPiece& piece, const std::vector<Operatio
             "name one of the job's [[operation]] entries");
   failure.key = "error_span.operation";
   return failure;
+}
+
+Result<std::vector<ProgramFile>> hashed(const std::vector<std::string>& files) {
+  std::vector<ProgramFile> known;
+  for (const std::string& file : files) {
+    const auto bytes = read_whole_file(file);
+    if (!bytes) return bytes.error();
+    known.push_back({file, sha256(*bytes)});
+  }
+  return known;
 }
 
 parser::InterpreterOptions reading_of(const Machine& machine, const TestPiece& piece) {
@@ -148,13 +160,23 @@ Result<CommandedPiece> command_piece(const Machine& machine, const TestPiece& pi
   begin(on_stage, Stage::parse);
   const auto program = parser::parse_program(piece.program, piece.program_file, piece.dialect);
   if (!program) return program.error();
-  const auto interpreter = reading_of(machine, piece);
+  auto interpreter = reading_of(machine, piece);
+  std::vector<std::string> opened;
+  interpreter.watch = [&opened](const parser::BlockAhead& ahead) {
+    const bool is_new =
+        ahead.file != nullptr && std::ranges::find(opened, *ahead.file) == opened.end();
+    if (is_new) opened.push_back(*ahead.file);
+    return true;
+  };
   auto motions = parser::motions_of(*program, interpreter);
   if (!motions) return motions.error();
+  auto files = hashed(opened);
+  if (!files) return files.error();
   begin(on_stage, Stage::execute);
   auto commanded = kinematics::command(machine, setup_of(piece), *motions);
   if (!commanded) return in_file(commanded.error(), piece.program_file);
   CommandedPiece result{.motions = *std::move(motions), .program = *std::move(commanded)};
+  result.program_files = *std::move(files);
   result.operations = traces_of(machine, piece, kinematics::block_ends(result.program));
   result.warnings = parser::doubts_of(result.motions);
   auto& warned = result.program.warnings;
@@ -175,6 +197,7 @@ Result<Trial> run_trial(const Machine& machine, const GeometricErrors& errors,
   Trial trial;
   trial.operations = commanded.operations;
   trial.warnings = commanded.warnings;
+  trial.program_files = commanded.program_files;
   trial.warnings.insert(trial.warnings.end(), oversize.begin(), oversize.end());
   if (travel.path.segments.empty()) {
     Diagnostic idle = warning("no-motion"_id, "the program moves no tool: the blank stays as it is",

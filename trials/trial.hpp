@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -40,6 +41,12 @@ struct OperationTrace {
   kinematics::AxisSpans ranges{};  // travelled range of each axis of the machine
 };
 
+// A file with subprograms that a program has opened, as it was when it ran.
+struct ProgramFile {
+  std::string name{};
+  std::string sha256{};
+};
+
 // Everything that one trip leaves behind.
 struct Trial {
   metrology::Measurement measurement{};
@@ -50,7 +57,8 @@ struct Trial {
   // What was looked for of machine and fixtures; its collisions are among those above.
   stock::MachineCollisions machine_collisions{};
   Diagnostics warnings{};
-  Diagnostics wrong_cuts{};  // cut_check.hpp
+  Diagnostics wrong_cuts{};                  // cut_check.hpp
+  std::vector<ProgramFile> program_files{};  // as of CommandedPiece
   std::shared_ptr<const stock::Workpiece> workpiece{};
 };
 
@@ -80,6 +88,7 @@ struct CommandedPiece {
   kinematics::CommandedProgram program{};
   std::vector<OperationTrace> operations{};
   Diagnostics warnings{};
+  std::vector<ProgramFile> program_files{};  // in the order in which they were opened
 };
 [[nodiscard]] Result<CommandedPiece> command_piece(const kinematics::Machine& machine,
                                                    const programs::TestPiece& piece,

@@ -9,10 +9,10 @@
 #include "app/command/unit_option.hpp"
 #include "app/job/export_request.hpp"
 #include "app/job/job.hpp"
+#include "app/job/job_evidence.hpp"
 #include "app/job/job_report.hpp"
 #include "app/job/trial_run.hpp"
 #include "app/view/console.hpp"
-#include "core/whole_file.hpp"
 #include "metrology/plan/point_scale.hpp"
 #include "metrology/points/point_file.hpp"
 #include "metrology/uncertainty/point_uncertainty.hpp"
@@ -139,14 +139,13 @@ Result<report::Evidence> evidence_of(const MeasureOptions& options, const Inspec
   evidence.measuring = report::measuring_statement(
       plan, cmm,
       is_probed ? report::PointSource::virtual_cmm : report::PointSource::measured_points);
-  const std::pair<const char*, const std::string&> files[] = {
-      {"plan", options.plan}, {"points", options.points}, {"mesh", options.mesh}};
+  const std::pair<const char*, const std::string&> files[] = {{"plan", options.plan},
+                                                              {"points", options.points},
+                                                              {"mesh", options.mesh},
+                                                              {"cmm", options.cmm.file}};
   for (const auto& [role, file] : files) {
-    // A pipe cannot be read once more.
-    if (file.empty() || !std::filesystem::is_regular_file(file)) continue;
-    const auto bytes = read_whole_file(file);
-    if (!bytes) return bytes.error();
-    evidence.files.push_back(report::hashed_file(role, file, *bytes));
+    const Diagnostics problems = add_hash(evidence.files, role, file);
+    if (!problems.empty()) return problems;
   }
   return evidence;
 }

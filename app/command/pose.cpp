@@ -183,7 +183,8 @@ int run_pose(const PoseOptions& options) {
   }
   const auto machine = load_machine(options.machine, ".");
   if (!machine) return refuse(machine.error(), options);
-  const auto entries = gather_errors({}, options.errors, std::nullopt, *machine);
+  const auto entries =
+      gather_errors({}, options.errors, drawn_by(options.errors, std::nullopt), *machine);
   if (!entries) return refuse(entries.error(), options);
   const auto errors = kinematics::resolve(*machine, *entries);
   if (!errors) return refuse(errors.error(), options);

@@ -7,6 +7,7 @@
 #include "app/command/commands.hpp"
 #include "app/job/export_request.hpp"
 #include "app/job/job.hpp"
+#include "app/job/job_evidence.hpp"
 #include "app/job/job_report.hpp"
 #include "app/job/trial_run.hpp"
 #include "app/view/console.hpp"

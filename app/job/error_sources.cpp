@@ -38,12 +38,23 @@ std::optional<Diagnostic> unknown_machine(kinematics::ErrorFileHead& file,
 
 }  // namespace
 
+std::vector<fs::path> error_files_of(const ErrorWords& words) {
+  std::vector<fs::path> files;
+  for (const std::string& name : words.files) files.push_back(find_error_file(name, "."));
+  return files;
+}
+
+std::optional<ErrorDraw> drawn_by(const ErrorWords& words, std::optional<ErrorDraw> of_job) {
+  if (!words.draw) return of_job;
+  return ErrorDraw{*words.draw, of_job ? of_job->index : 0};
+}
+
 Result<std::vector<ErrorEntry>> gather_errors(ErrorList of_job, const ErrorWords& words,
                                               std::optional<ErrorDraw> draw,
                                               const kinematics::Machine& machine) {
   ErrorList all = std::move(of_job);
-  for (const std::string& name : words.files) {
-    auto file = kinematics::load_error_file(find_error_file(name, "."));
+  for (const fs::path& name : error_files_of(words)) {
+    auto file = kinematics::load_error_file(name);
     if (!file) {
       append(all.problems, file.error());
       continue;
@@ -64,7 +75,6 @@ Result<std::vector<ErrorEntry>> gather_errors(ErrorList of_job, const ErrorWords
     if (auto problem = mismatch(file, machine)) all.problems.push_back(*std::move(problem));
   }
   if (has_error(all.problems)) return all.problems;
-  if (words.draw) draw = ErrorDraw{*words.draw, draw ? draw->index : 0};
   if (!draw) return all.entries;
   return kinematics::draw(all.entries, draw->seed, draw->index);
 }

@@ -31,6 +31,12 @@ struct ErrorWords {
   std::optional<std::uint64_t> draw{};
 };
 
+// The files that are named there.
+[[nodiscard]] std::vector<std::filesystem::path> error_files_of(const ErrorWords& words);
+// The seed of the command line goes before the job's; the number of the draw is the job's.
+[[nodiscard]] std::optional<ErrorDraw> drawn_by(const ErrorWords& words,
+                                                std::optional<ErrorDraw> of_job);
+// `draw`: as drawn_by() says.
 [[nodiscard]] Result<std::vector<kinematics::ErrorEntry>> gather_errors(
     kinematics::ErrorList of_job, const ErrorWords& words, std::optional<ErrorDraw> draw,
     const kinematics::Machine& machine);

@@ -259,7 +259,7 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
   if (const auto table = root.table_if("errors")) {
     written_errors = kinematics::read_errors(*table, find_error_file);
   }
-  const std::optional<ErrorDraw> draw = read_draw(root);
+  const std::optional<ErrorDraw> draw = drawn_by(overrides.errors, read_draw(root));
   double mesh_pitch = 0.0;
   bool report = true;
   std::vector<fs::path> exports;
@@ -312,6 +312,8 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
              .plan_file = std::move(plan_file),
              .piece = std::move(piece),
              .errors = std::move(errors),
+             .error_files = error_files_of(overrides.errors),
+             .draw = draw,
              .nominal = std::move(nominal),
              .cmm = cmm,
              .controller = controller,

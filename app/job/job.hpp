@@ -32,6 +32,8 @@ struct Job {
   std::filesystem::path plan_file{};  // empty: none
   programs::TestPiece piece{};
   std::vector<kinematics::ErrorEntry> errors{};
+  std::vector<std::filesystem::path> error_files{};  // of the command line
+  std::optional<ErrorDraw> draw{};                   // that the errors are
   // A shape that surfaces are compared with instead of the plan's; null: none.
   std::shared_ptr<const stock::FacetSolid> nominal{};
   metrology::CmmModel cmm{};

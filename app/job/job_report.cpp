@@ -9,12 +9,11 @@
 #include <map>
 #include <utility>
 
-#include "core/whole_file.hpp"
+#include "app/job/job_evidence.hpp"
 #include "kinematics/errors/error_assignment.hpp"
 #include "metrology/plan/nominal.hpp"
 #include "metrology/probing/acceptance_test.hpp"
 #include "metrology/uncertainty/point_uncertainty.hpp"
-#include "report/measuring_statement.hpp"
 #include "stock/mesh/deviation.hpp"
 #include "stock/mesh/refine_surface.hpp"
 #include "stock/solid/nominal_mesh.hpp"
@@ -175,28 +174,11 @@ report::MachineBodies machine_bodies_of(const stock::MachineCollisions& met) {
   return bodies;
 }
 
-Result<report::Evidence> evidence_of(const Job& job) {
-  report::Evidence evidence;
-  evidence.header = job.piece.plan.header;
-  evidence.measuring =
-      report::measuring_statement(job.piece.plan, job.cmm, report::PointSource::virtual_cmm);
-  evidence.files.push_back(
-      report::hashed_file("program", job.piece.program_file, job.piece.program));
-  const std::pair<const char*, const std::filesystem::path&> others[] = {
-      {"plan", job.plan_file}, {"job", job.file}, {"machine", job.machine_file}};
-  for (const auto& [role, file] : others) {
-    if (file.empty()) continue;
-    const auto bytes = read_whole_file(file);
-    if (!bytes) return bytes.error();
-    evidence.files.push_back(report::hashed_file(role, file.string(), *bytes));
-  }
-  return evidence;
-}
-
 report::RunReport report_of(const Job& job, const trials::Trial& trial, report::Evidence evidence) {
   report::RunReport report;
   report.title = job.piece.title;
   report.evidence = std::move(evidence);
+  add_subprograms(report.evidence, trial);
   report.version = FRUSTUM_VERSION;
   report.machine = job.machine.name() + ", " + job.machine.title();
   report.structure = job.machine.structure();

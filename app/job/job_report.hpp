@@ -13,10 +13,6 @@
 
 namespace frustum::app {
 
-// What the job states of part and CMM, and the fingerprints of its files as they are now: to be
-// taken before the long work.
-[[nodiscard]] Result<report::Evidence> evidence_of(const Job& job);
-
 // Everything but surface, volumes, timings and files.
 [[nodiscard]] report::RunReport report_of(const Job& job, const trials::Trial& trial,
                                           report::Evidence evidence = {});

@@ -6,10 +6,19 @@
 namespace frustum::kinematics {
 namespace {
 
+// With as many digits as it takes to read the same value again, at least six.
 std::string quantity_text(double value, UnitKind kind) {
-  if (kind == UnitKind::length) return fmt::format("{:.6g} um", value * kUmPerMm);
-  if (kind == UnitKind::angle) return fmt::format("{:.6g} urad", value * kUradPerRad);
-  return fmt::format("{:.6g}", value);
+  const double shown = kind == UnitKind::length  ? value * kUmPerMm
+                       : kind == UnitKind::angle ? value * kUradPerRad
+                                                 : value;
+  const char* unit = kind == UnitKind::length ? " um" : kind == UnitKind::angle ? " urad" : "";
+  std::string text;
+  for (const int digits : {6, 15, 16, 17}) {
+    text = fmt::format("{:.{}g}{}", shown, digits, unit);
+    const auto read = parse_quantity(text);
+    if (read && read->value == value) break;
+  }
+  return text;
 }
 
 std::string distribution_text(const Distribution& d) {

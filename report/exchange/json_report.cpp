@@ -129,6 +129,10 @@ Json evidence_json(const RunReport& report) {
   }
   json["measuring"] = Json::object();
   for (const Fact& fact : report.evidence.measuring) json["measuring"][fact.key] = fact.value;
+  json["error_draw"] = nullptr;
+  if (const auto& draw = report.evidence.error_draw) {
+    json["error_draw"] = {{"seed", draw->seed}, {"index", draw->index}};
+  }
   json["files"] = array_of(report.evidence.files, [](const HashedFile& file) {
     return Json{{"role", file.role}, {"name", file.name}, {"sha256", file.sha256}};
   });

@@ -191,9 +191,9 @@ std::string characteristics_html(const RunReport& report) {
 std::string measuring_html(const RunReport& report) {
   const Evidence& evidence = report.evidence;
   std::string html;
-  if (!evidence.measuring.empty()) {
+  if (const std::vector<Fact> facts = made_and_measured(evidence); !facts.empty()) {
     html += "<dl class=\"statement\">";
-    for (const Fact& stated : evidence.measuring) {
+    for (const Fact& stated : facts) {
       html += fact(stated.label, html_text(stated.value));
     }
     html += "</dl>\n";
