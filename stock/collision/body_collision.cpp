@@ -24,10 +24,11 @@ using kinematics::PathKind;
 using kinematics::PathSegment;
 using kinematics::ToolPath;
 
-// One body on one segment.
+// One body on one segment, near a ray.
 struct Passage {
   std::uint32_t segment = 0;
   const NonCuttingBody* body = nullptr;
+  RaySpan span{};  // of the ray, within the box of all that the body covers
 };
 
 Box box_of(const NonCuttingBody& body, const ToolPath& path, const PathSegment& segment) {
@@ -52,15 +53,16 @@ class Passages {
   [[nodiscard]] bool empty() const { return bodies_.empty(); }
   [[nodiscard]] std::vector<Passage> near(const Ray& ray, RaySpan span) const {
     std::vector<Passage> found;
-    std::vector<std::uint32_t> segments;
+    const BoxCrossing crossing(ray);
     for (const BodyBoxes& each : bodies_) {
-      segments.clear();
+      const auto first = static_cast<std::ptrdiff_t>(found.size());
       each.scene.along(ray, span, [&](std::uint32_t box) {
-        segments.push_back(each.segments[box]);
+        found.push_back({each.segments[box], each.body, crossing.within(each.boxes[box], span)});
         return span.hi;
       });
-      std::ranges::sort(segments);  // Embree's order is not fixed
-      for (const std::uint32_t segment : segments) found.push_back({segment, each.body});
+      // Embree's order is not fixed.
+      std::sort(found.begin() + first, found.end(),
+                [](const Passage& a, const Passage& b) { return a.segment < b.segment; });
     }
     return found;
   }
@@ -90,23 +92,23 @@ class Passages {
   struct BodyBoxes {
     const NonCuttingBody* body = nullptr;
     std::vector<std::uint32_t> segments{};
-    BoxScene scene{};  // of their boxes
+    std::vector<Box> boxes{};  // of the segments
+    BoxScene scene{};          // of the boxes
   };
 
   void collect(const BoundingBox& blank, const NonCuttingBody& body) {
     if (body.parts.empty()) return;
     BodyBoxes near_blank{&body};
-    std::vector<Box> boxes;
     for (std::uint32_t i = 0; i < path_.segments.size(); ++i) {
       const PathSegment& segment = path_.segments[i];
       if (body.tool != path_.blocks[segment.block].tool) continue;
       const Box box = box_of(body, path_, segment);
       if (!overlap(box, blank)) continue;
       near_blank.segments.push_back(i);
-      boxes.push_back(box);
+      near_blank.boxes.push_back(box);
     }
-    if (boxes.empty()) return;
-    near_blank.scene = BoxScene(boxes);
+    if (near_blank.boxes.empty()) return;
+    near_blank.scene = BoxScene(near_blank.boxes);
     bodies_.push_back(std::move(near_blank));
   }
 
@@ -139,11 +141,38 @@ std::vector<RemovedPiece> history(const Workpiece& workpiece, const Timetable& t
   return pieces;
 }
 
+// mm of the material within the span.
+double length_within(const IntervalSet& material, const RaySpan& span) {
+  double length = 0.0;
+  for (const Interval& piece : material.intervals()) {
+    length += std::max(0.0, std::min(piece.hi, span.hi) - std::max(piece.lo, span.lo));
+  }
+  return length;
+}
+
+// The passages that may meet what is left when the first of them begins. Most are beside it, which
+// their boxes show at less cost than their bodies: what is shrunk by the margin is inside its box
+// by the margin.
+std::vector<Passage> suspects(const Workpiece& workpiece, std::vector<Passage> near,
+                              const Ray& ray) {
+  if (near.empty()) return near;
+  std::uint32_t first = near.front().segment;
+  RaySpan all = near.front().span;
+  for (const Passage& passage : near) {
+    first = std::min(first, passage.segment);
+    all = {std::min(all.lo, passage.span.lo), std::max(all.hi, passage.span.hi)};
+  }
+  const IntervalSet left = workpiece.material_along(ray, all, first);
+  std::erase_if(near, [&](const Passage& passage) {
+    return left.empty() || length_within(left, passage.span) < 0.5 * kCollisionMargin;
+  });
+  return near;
+}
+
 void examine(const Workpiece& workpiece, const Timetable& table, const Passages& passages,
              const Ray& ray, RaySpan span, Hits& hits) {
-  const auto near = passages.near(ray, span);
   std::vector<RemovedPiece> pieces;
-  for (const Passage& passage : near) {
+  for (const Passage& passage : suspects(workpiece, passages.near(ray, span), ray)) {
     const IntervalSet covered = passages.core_along(passage, ray);
     if (covered.empty()) continue;
     if (pieces.empty()) pieces = history(workpiece, table, ray, span);
