@@ -46,6 +46,8 @@ constexpr std::array kChecks{
     CheckInfo{inverse_time_speed, "inverse-time-speed", kWarning,
               "In inverse time (G93) a move is faster than any cut"},
     CheckInfo{spindle_off, "spindle-off", kError, "A cutting move is made with the spindle off"},
+    CheckInfo{spindle_hand, "spindle-hand", kWarning,
+              "A tool cuts while the spindle turns against its hand", Needs::job},
     CheckInfo{tool_missing, "tool-missing", kWarning,
               "Cutting moves are made and no tool is called"},
     CheckInfo{length_missing, "length-missing", kWarning,

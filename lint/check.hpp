@@ -38,6 +38,7 @@ enum class Check : std::uint8_t {
   feed_low,
   inverse_time_speed,
   spindle_off,
+  spindle_hand,
   tool_missing,
   length_missing,
   length_of_other_tool,

@@ -101,6 +101,10 @@ constexpr std::array kHelp{
         {"A tool that does not turn is driven into the part: after M5, a tool change, or M3 "
          "without S.",
          "Give S and M3 or M4 before the cut."}},
+    Row{spindle_hand,
+        {"The job's tool cuts with the backs of its edges: M4 with a right-hand cutter, or M3 with "
+         "a left-hand one.",
+         "Turn the spindle the other way, or state the hand of the tool."}},
     Row{tool_missing,
         {"The program cuts with what happens to be in the spindle.",
          "Call the tool at the beginning of the program."}},

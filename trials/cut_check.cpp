@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "kinematics/controller/source_lines.hpp"
+#include "stock/collision/collision.hpp"
 
 namespace frustum::trials {
 namespace {
@@ -70,6 +72,26 @@ std::optional<Diagnostic> away_from_blank(const stock::Workpiece& workpiece,
             "check the origin of the blank, the work offsets and the lengths of the tools");
   away.file = piece.program_file;
   return away;
+}
+
+Diagnostics against_hand(const stock::Workpiece& workpiece, const programs::TestPiece& piece) {
+  Diagnostics findings;
+  for (const std::uint32_t index : stock::cuts_against_hand(workpiece)) {
+    const kinematics::PathBlock& block = workpiece.removed().path().blocks[index];
+    const bool is_left =
+        workpiece.removed().tool(block.tool).spec().hand == cutter::CutterHand::left;
+    Diagnostic found =
+        warning("spindle-hand"_id,
+                fmt::format("tool T{} is a {}-hand cutter and cuts while the spindle turns {}",
+                            block.tool, is_left ? "left" : "right",
+                            is_left ? "clockwise (M3)" : "counterclockwise (M4)"),
+                fmt::format("turn the spindle by {}, or state hand = \"{}\" for the tool",
+                            is_left ? "M4" : "M3", is_left ? "right" : "left"));
+    found.file = block.source_file ? *block.source_file : piece.program_file;
+    found.line = static_cast<int>(block.source_line);
+    findings.push_back(std::move(found));
+  }
+  return findings;
 }
 
 Diagnostics wrongly_cut_features(const programs::TestPiece& piece, const kinematics::ToolPath& path,

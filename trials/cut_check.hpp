@@ -21,6 +21,11 @@ namespace frustum::trials {
 [[nodiscard]] std::optional<Diagnostic> away_from_blank(const stock::Workpiece& workpiece,
                                                         const programs::TestPiece& piece);
 
+// Cuts with the spindle turning against the hand of the tool: one warning for each stretch without
+// a change of tool or spindle.
+[[nodiscard]] Diagnostics against_hand(const stock::Workpiece& workpiece,
+                                       const programs::TestPiece& piece);
+
 // One warning for each feature with points that its operation did not make.
 [[nodiscard]] Diagnostics wrongly_cut_features(const programs::TestPiece& piece,
                                                const kinematics::ToolPath& path,

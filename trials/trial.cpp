@@ -219,6 +219,9 @@ Result<Trial> run_trial(const Machine& machine, const GeometricErrors& errors,
   if (options.find_collisions) {
     begin(options.on_stage, Stage::collide);
     trial.collisions = stock::find_collisions(*trial.workpiece);
+    for (Diagnostic& d : against_hand(*trial.workpiece, piece)) {
+      trial.warnings.push_back(std::move(d));
+    }
     auto met = machine_collisions_of(machine, piece, commanded.program, *trial.workpiece);
     if (!met) return met.error();
     trial.machine_collisions = *std::move(met);

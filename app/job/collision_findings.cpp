@@ -29,6 +29,9 @@ std::string remedy_of(const stock::Collision& collision) {
   if (collision.kind == stock::CollisionKind::bodies_meet) {
     return "another way to the place, another clamping, or a longer tool";
   }
+  if (collision.body == stock::CollisionBody::shank) {
+    return "longer flutes, cuts of less depth, or a shank_diameter that is smaller than the cutter";
+  }
   return "a longer tool or a slimmer holder, or another way to the place";
 }
 
@@ -48,6 +51,16 @@ Result<std::vector<lint::Finding>> collisions_of(const Job& job) {
     return problems;
   }
   std::vector<lint::Finding> findings;
+  for (const Diagnostic& d : trial->warnings) {
+    if (d.id != "spindle-hand"_id) continue;
+    findings.push_back({.check = lint::Check::spindle_hand,
+                        .severity = lint::info_of(lint::Check::spindle_hand).severity,
+                        .file = d.file == job.piece.program_file ? "" : d.file,
+                        .line = static_cast<std::uint32_t>(d.line),
+                        .column = 1,
+                        .message = d.message,
+                        .hint = d.hint});
+  }
   for (const stock::Collision& collision : trial->collisions) {
     const lint::Check check = check_of(collision);
     // The check of the program itself finds these.

@@ -91,17 +91,19 @@ std::string body_text(const stock::Collision& c) {
   return "";
 }
 
-std::string kind_text(stock::CollisionKind kind) {
-  switch (kind) {
+std::string kind_text(const stock::Collision& c) {
+  const std::string material =
+      c.body == stock::CollisionBody::shank ? "material above the flutes" : "material";
+  switch (c.kind) {
     case stock::CollisionKind::rapid_through_material:
-      return "rapid move (G0) through material";
+      return "rapid move (G0) through " + material;
     case stock::CollisionKind::feed_with_spindle_off:
       return "feed move with the spindle off in material";
     case stock::CollisionKind::body_in_material:
     case stock::CollisionKind::bodies_meet:
       break;
   }
-  return "in material during a feed move";
+  return "in " + material + " during a feed move";
 }
 
 std::string lines_text(const stock::Collision& c) {
@@ -128,7 +130,7 @@ std::array<float, 3> in_single_precision(const Vec3& v) {
 
 std::string collision_text(const stock::Collision& c) {
   if (c.kind == stock::CollisionKind::bodies_meet) return meeting_text(c);
-  std::string what = kind_text(c.kind);
+  std::string what = kind_text(c);
   if (c.body != stock::CollisionBody::cutter) {
     what = body_text(c) + (c.kind == stock::CollisionKind::body_in_material ? "" : "in a ") + what;
   }

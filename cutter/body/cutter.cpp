@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -107,9 +108,21 @@ class Stack {
   std::vector<GeneratrixSegment> chain_;
 };
 
-Result<Body> shank_body(const CutterSpec& spec, double flutes_end, double top) {
+// Radius of the shank of a tool that states neither shank nor neck; 0: none. It is that of the
+// cutter where its flutes end, less a relief, so that it does not touch the wall that the flutes
+// have cut before on a machine whose errors are of that size.
+double unstated_shank(const CutterSpec& spec, double flutes_end_radius) {
+  constexpr double kRelief = 0.05;  // mm
+  // The neck of a T-slot cutter is slimmer than its disc, and only its maker knows by how much.
+  if (spec.flute_length.value <= 0.0 || spec.type == CutterType::t_slot) return 0.0;
+  return std::max(0.0, flutes_end_radius - kRelief);
+}
+
+// `unstated` is the radius where the spec states neither shank nor neck.
+Result<Body> shank_body(const CutterSpec& spec, double flutes_end, double top, double unstated) {
   const double neck = 0.5 * spec.neck_diameter.value;
-  const double shank = spec.shank_diameter.value > 0.0 ? 0.5 * spec.shank_diameter.value : neck;
+  const double stated = spec.shank_diameter.value > 0.0 ? 0.5 * spec.shank_diameter.value : neck;
+  const double shank = stated > 0.0 ? stated : unstated;
   Stack stack(flutes_end);
   if (neck > 0.0) {
     const double rest = top - flutes_end;
@@ -169,6 +182,7 @@ Result<Cutter> Cutter::make(const CutterSpec& spec) {
   if (!chain) return chain.error();
   auto generatrix = Generatrix::make(*std::move(chain));
   if (!generatrix) return generatrix.error();
+  const double unstated = unstated_shank(spec, generatrix->segments().back().to.r);
   Cutter cutter(spec, Body(*std::move(generatrix)));
 
   const double flutes_end = cutter.body_.height();
@@ -187,9 +201,10 @@ Result<Cutter> Cutter::make(const CutterSpec& spec) {
                     height_of(spec.holder), spec.length.value, flutes_end),
         "the holder reaches from the gauge point down to above the flutes; state flute_length");
   }
-  const bool has_shank = spec.shank_diameter.value > 0.0 || spec.neck_diameter.value > 0.0;
+  const bool has_shank =
+      spec.shank_diameter.value > 0.0 || spec.neck_diameter.value > 0.0 || unstated > 0.0;
   if (has_shank && holder_bottom > flutes_end + shortest) {
-    auto shank = shank_body(spec, flutes_end, holder_bottom);
+    auto shank = shank_body(spec, flutes_end, holder_bottom, unstated);
     if (!shank) return shank.error();
     cutter.shank_ = *std::move(shank);
   }

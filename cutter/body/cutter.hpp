@@ -28,7 +28,8 @@ class Cutter {
   // and therefore belongs to the tool path.
   [[nodiscard]] const Body& body() const { return body_; }
   // What must not touch material: from the flutes up to the holder, and the holder up to the gauge
-  // point.
+  // point. A tool that states flute_length and neither shank nor neck has a shank as wide as its
+  // flutes, less a relief of 0.05 mm; one without flute_length cuts over its whole length.
   [[nodiscard]] const std::optional<Body>& shank() const { return shank_; }
   [[nodiscard]] const std::optional<Body>& holder() const { return holder_; }
 

@@ -79,6 +79,9 @@ std::vector<std::string> type_names() {
   return names;
 }
 
+// In the order of CutterHand.
+std::vector<std::string> hand_names() { return {"right", "left"}; }
+
 std::optional<int> tool_number(const std::string& key) {
   const bool whole =
       !key.empty() && key.size() < 6 && key.find_first_not_of("0123456789") == std::string::npos;
@@ -146,6 +149,8 @@ CutterSpec read_cutter(const TomlTable& table, const std::optional<CutterSpec>& 
            : table.choice("type", type_names());
   spec.type = static_cast<CutterType>(type);
   spec.name = table.text_or("name", spec.name);
+  spec.hand = static_cast<CutterHand>(
+      table.choice_or("hand", hand_names(), static_cast<std::size_t>(spec.hand)));
   for (const CutterKey& key : type_row(spec.type).keys) read_key(table, key, spec);
   for (const CutterKey& key : common_keys()) read_key(table, key, spec);
   return spec;
@@ -215,6 +220,10 @@ std::string cutter_text(const CutterSpec& spec) {
   const CutterTypeRow& row = type_row(spec.type);
   std::string text = fmt::format("{{ type = \"{}\"", row.name);
   if (!spec.name.empty()) text += fmt::format(", name = {}", toml_text(spec.name));
+  if (spec.hand != CutterHand::right) {
+    text +=
+        fmt::format(", hand = {}", toml_text(hand_names()[static_cast<std::size_t>(spec.hand)]));
+  }
   std::vector<std::string_view> written;
   const auto write = [&](std::span<const CutterKey> keys) {
     for (const CutterKey& key : keys) {

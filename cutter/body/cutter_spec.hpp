@@ -44,9 +44,13 @@ enum class CutterType : std::uint8_t {
 
 using CutterRow = std::array<double, 3>;
 
+// Right-hand tools cut while the spindle turns clockwise (M3), left-hand ones by M4.
+enum class CutterHand : std::uint8_t { right, left };
+
 struct CutterSpec {
   CutterType type = CutterType::flat;
   std::string name{};  // that programs call it by; empty: by its number alone
+  CutterHand hand = CutterHand::right;
   Mm diameter{};
   Mm length{};
   Mm flute_length{};  // 0: the whole length

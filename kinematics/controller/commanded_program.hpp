@@ -27,7 +27,7 @@ struct CommandedMove {
   std::shared_ptr<const std::string> source_file{};
   std::uint32_t main_line = 0;  // of the main program: this line, or the call that led to it
   PathKind kind = PathKind::feed;
-  bool spindle_on = true;
+  SpindleDirection spindle = SpindleDirection::clockwise;  // off: it is at rest
   int tool = 0;       // in the spindle; 0: none, it takes its time but leaves no path
   double feed = 0.0;  // mm/min (deg/min where only rotary axes move) as programmed; 0: rapid
   double feed_duration = 0.0;  // s, at the programmed feed; 0 for rapids

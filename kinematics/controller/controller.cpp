@@ -312,7 +312,7 @@ class Controller::State {
     move.source_line = place_.line;
     move.source_file = place_.file;
     move.main_line = place_.main_line;
-    move.spindle_on = modes().spindle_on();
+    move.spindle = modes().spindle_turns();
     move.tool = tool();
     sink_(std::move(move));
   }

@@ -32,7 +32,11 @@ struct ControllerModes {
     const bool on = spindle.direction != parser::SpindleDirection::off && spindle.speed > 0.0;
     return on ? spindle.speed : 0.0;
   }
-  [[nodiscard]] bool spindle_on() const { return !halted && spindle_speed() > 0.0; }
+  // off: the spindle is at rest.
+  [[nodiscard]] parser::SpindleDirection spindle_turns() const {
+    const bool turns = !halted && spindle_speed() > 0.0;
+    return turns ? spindle.direction : parser::SpindleDirection::off;
+  }
   [[nodiscard]] parser::RotaryPath rotary_path(parser::AxisLetter letter) const {
     return rotary_paths.at(static_cast<std::size_t>(letter) - parser::kLinearAxes.size());
   }

@@ -1,4 +1,4 @@
-// Whether a move cuts.
+// Whether a move cuts, and how the spindle turns meanwhile.
 //
 // Units : none
 // Errors: none
@@ -6,7 +6,11 @@
 
 #include <cstdint>
 
+#include "parser/motion.hpp"
+
 namespace frustum::kinematics {
+
+using parser::SpindleDirection;
 
 enum class PathKind : std::uint8_t { rapid, feed };
 

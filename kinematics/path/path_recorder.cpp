@@ -179,7 +179,7 @@ void PathRecorder::deliver(Pending& pending) {
                   .source_file = move.source_file,
                   .main_line = move.main_line,
                   .kind = move.kind,
-                  .spindle_on = move.spindle_on,
+                  .spindle = move.spindle,
                   .tool = move.tool,
                   .feed = move.feed,
                   .feed_duration = move.feed_duration};

@@ -25,12 +25,14 @@ struct PathBlock {
   std::shared_ptr<const std::string> source_file{};
   std::uint32_t main_line = 0;  // of the main program: this line, or the call that led to it
   PathKind kind = PathKind::feed;
-  bool spindle_on = true;
-  int tool = 0;       // tool number in the spindle
+  SpindleDirection spindle = SpindleDirection::clockwise;  // off: it is at rest
+  int tool = 0;                                            // tool number in the spindle
   double feed = 0.0;  // mm/min (deg/min where only rotary axes move) as programmed; 0: rapid
   double feed_duration = 0.0;              // s, at the programmed feed; 0 for rapids
   double duration = 0.0;                   // s, by the time law
   std::optional<AxisLetter> limited_by{};  // the axis whose limit slowed the block below its feed
+
+  [[nodiscard]] bool spindle_on() const { return spindle != SpindleDirection::off; }
 };
 
 // From poses[first_pose] to poses[first_pose + 1].

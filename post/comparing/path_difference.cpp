@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 namespace frustum::post {
@@ -30,10 +31,10 @@ bool apart(const PathMatch& match, const DifferenceLimits& limits) {
 // begins at which another one ended, both are the nearest: two matches must show it, or the last.
 template <class Value>
 std::optional<std::size_t> first_unlike(const ToolPath& reference, const ToolPath& other,
-                                        const std::vector<PathMatch>& matches,
-                                        Value PathBlock::*value) {
+                                        const std::vector<PathMatch>& matches, Value value) {
   const auto unlike = [&](const PathMatch& m) {
-    return reference.blocks[m.reference.block].*value != other.blocks[m.other.block].*value;
+    return std::invoke(value, reference.blocks[m.reference.block]) !=
+           std::invoke(value, other.blocks[m.other.block]);
   };
   for (std::size_t i = 0; i < matches.size(); ++i) {
     const bool last = i + 1 == matches.size();

@@ -11,6 +11,7 @@
 #include "programs/cone/cone_path.hpp"
 #include "programs/cone/linearised_axes.hpp"
 #include "programs/piece_program.hpp"
+#include "programs/piece_tool.hpp"
 
 namespace frustum::programs {
 namespace {
@@ -297,11 +298,7 @@ Result<TestPiece> cone_frustum(const ConeFrustum& cone, const Machine& machine,
   const double reach = (cone.height.value + 2.0) / std::cos(cone.cone_angle.value);
   const double flutes =
       std::max(reach, cone.height.value + cone.cylinder_height.value + kGrooveDepth);
-  piece.tools[kTool] = {
-      .type = cutter::CutterType::flat,
-      .diameter = cone.tool_diameter,
-      .length = cone.tool_length,
-      .flute_length = {std::min(cone.tool_length.value, std::ceil(flutes + 5.0))}};
+  piece.tools[kTool] = piece_tool(cone.tool_diameter, cone.tool_length, {std::ceil(flutes + 5.0)});
   piece.blank =
       stock::FrustumShape{shape->blank_radius, shape->blank_radius, shape->top_z - shape->bottom_z};
   piece.blank_origin = Vec3(0, 0, shape->bottom_z);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/spelling.hpp"
+#include "programs/piece_tool.hpp"
 #include "programs/step/near_net_blank.hpp"
 #include "programs/step/step_plan.hpp"
 #include "programs/step/step_program.hpp"
@@ -118,10 +119,7 @@ Result<StepPiece> step_pattern(const StepTest& test, const kinematics::Machine& 
   piece.work_offsets = {{1, table->crossing}};
   // The tallest wall that the side edge passes, and some.
   constexpr double kFlutes = 45.0;
-  piece.tools[kStepTool] = {.type = cutter::CutterType::flat,
-                            .diameter = test.tool_diameter,
-                            .length = test.tool_length,
-                            .flute_length = {std::min(kFlutes, test.tool_length.value)}};
+  piece.tools[kStepTool] = piece_tool(test.tool_diameter, test.tool_length, {kFlutes});
   const stock::LoftShape blank = near_net_blank(test.workpiece.body, test.allowance.value);
   piece.blank = blank;
   piece.blank_origin = test.workpiece.centre();

@@ -18,6 +18,7 @@ using cutter::Profile;
 using kinematics::PathBlock;
 using kinematics::PathKind;
 using kinematics::PathSegment;
+using kinematics::SpindleDirection;
 using kinematics::ToolPath;
 using kinematics::ToolPose;
 
@@ -36,23 +37,25 @@ bool continues(const ToolPath& path, const SuspectMove& move, std::uint32_t bloc
   const PathBlock &before = path.blocks[last], &now = path.blocks[block];
   if (before.kind != PathKind::feed || now.kind != PathKind::feed) return false;
   const auto cuts = [](const PathBlock& between) {
-    return between.kind == PathKind::feed && between.spindle_on;
+    return between.kind == PathKind::feed && between.spindle_on();
   };
   return before.tool == now.tool &&
          std::none_of(path.blocks.begin() + last, path.blocks.begin() + block, cuts);
 }
 
-std::vector<SuspectMove> suspects(const Workpiece& workpiece) {
+// Of the blocks that `is_suspect`; one that `goes_on` from the move before belongs to it.
+template <typename IsSuspect, typename GoesOn>
+std::vector<SuspectMove> suspects(const Workpiece& workpiece, const IsSuspect& is_suspect,
+                                  const GoesOn& goes_on) {
   const ToolPath& path = workpiece.removed().path();
   const BoundingBox blank = workpiece.blank().bounds();
   std::vector<SuspectMove> moves;
   for (std::uint32_t i = 0; i < path.segments.size(); ++i) {
     const std::uint32_t block_index = path.segments[i].block;
-    const PathBlock& block = path.blocks[block_index];
-    if (block.kind == PathKind::feed && block.spindle_on) continue;
+    if (!is_suspect(block_index)) continue;
     const Box& box = workpiece.removed().box(i);
     if (!overlap(box, blank)) continue;
-    if (moves.empty() || !continues(path, moves.back(), block_index)) {
+    if (moves.empty() || !goes_on(moves.back(), block_index)) {
       moves.push_back({block_index, {}, box});
     }
     SuspectMove& move = moves.back();
@@ -276,10 +279,102 @@ std::optional<Collision> examine(const Workpiece& workpiece, const SuspectMove& 
                    .depth = worst.depth};
 }
 
+SpindleDirection against(cutter::CutterHand hand) {
+  return hand == cutter::CutterHand::right ? SpindleDirection::counterclockwise
+                                           : SpindleDirection::clockwise;
+}
+
+// Feeds while the spindle turns against the hand of the tool, but those of taps.
+class FeedsAgainstHand {
+ public:
+  explicit FeedsAgainstHand(const Workpiece& workpiece)
+      : swept_(workpiece.removed()), ends_(swept_.path().blocks.size()) {
+    const ToolPath& path = swept_.path();
+    for (const PathSegment& segment : path.segments) {
+      Ends& ends = ends_[segment.block];
+      if (ends.from == nullptr) ends.from = &path.from(segment);
+      ends.to = &path.to(segment);
+    }
+  }
+
+  [[nodiscard]] bool has(std::uint32_t index) const {
+    const PathBlock& block = swept_.path().blocks[index];
+    if (block.kind != PathKind::feed) return false;
+    return block.spindle == against(swept_.tool(block.tool).spec().hand) && !is_of_tap(index);
+  }
+  // The block is the first one after the spindle or the tool has changed.
+  [[nodiscard]] bool begins_stretch(std::uint32_t before, std::uint32_t index) const {
+    const auto& blocks = swept_.path().blocks;
+    for (std::uint32_t i = before; i < index; ++i) {
+      if (blocks[i + 1].spindle != blocks[i].spindle || blocks[i + 1].tool != blocks[i].tool) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  struct Ends {
+    const ToolPose* from = nullptr;
+    const ToolPose* to = nullptr;
+  };
+
+  // Share of the way along the tool axis: 1 out of a hole, -1 into it; nothing where nothing moves.
+  [[nodiscard]] std::optional<double> outwards(std::uint32_t index) const {
+    const Ends& ends = ends_[index];
+    if (ends.from == nullptr) return std::nullopt;
+    const Vec3 way = ends.to->tip - ends.from->tip;
+    const double length = way.norm();
+    if (!(length > 0.0)) return std::nullopt;
+    return way.dot(ends.from->axis) / length;
+  }
+
+  // A tap goes in along its axis and comes back with the spindle reversed.
+  [[nodiscard]] bool is_of_tap(std::uint32_t index) const {
+    constexpr double kAlong = 0.999;  // machines with errors do not go quite along the axis
+    const auto& blocks = swept_.path().blocks;
+    const std::optional<double> in = outwards(index);
+    if (!in || *in > -kAlong) return false;
+    for (std::uint32_t i = index + 1; i < blocks.size(); ++i) {
+      if (blocks[i].kind != PathKind::feed || blocks[i].tool != blocks[index].tool) return false;
+      const std::optional<double> next = outwards(i);
+      if (!next) continue;
+      if (std::abs(*next) < kAlong) return false;
+      if (*next > 0.0) {
+        return blocks[i].spindle != blocks[index].spindle &&
+               blocks[i].spindle != SpindleDirection::off;
+      }
+    }
+    return false;
+  }
+
+  const cutter::SweptCutter& swept_;
+  std::vector<Ends> ends_;
+};
+
 }  // namespace
 
+std::vector<std::uint32_t> cuts_against_hand(const Workpiece& workpiece) {
+  const FeedsAgainstHand feeds(workpiece);
+  const std::vector<SuspectMove> moves = suspects(
+      workpiece, [&](std::uint32_t block) { return feeds.has(block); },
+      [](const SuspectMove& move, std::uint32_t block) { return move.block == block; });
+  std::vector<std::uint32_t> found;
+  for (const SuspectMove& move : moves) {
+    if (!found.empty() && !feeds.begins_stretch(found.back(), move.block)) continue;
+    if (examine(workpiece, move)) found.push_back(move.block);
+  }
+  return found;
+}
+
 std::vector<Collision> find_cutter_collisions(const Workpiece& workpiece) {
-  const std::vector<SuspectMove> moves = suspects(workpiece);
+  const ToolPath& path = workpiece.removed().path();
+  const std::vector<SuspectMove> moves = suspects(
+      workpiece,
+      [&](std::uint32_t block) {
+        return path.blocks[block].kind == PathKind::rapid || !path.blocks[block].spindle_on();
+      },
+      [&](const SuspectMove& move, std::uint32_t block) { return continues(path, move, block); });
   std::vector<std::optional<Collision>> examined(moves.size());
   tbb::parallel_for(std::size_t{0}, moves.size(),
                     [&](std::size_t i) { examined[i] = examine(workpiece, moves[i]); });

@@ -68,6 +68,11 @@ struct NonCuttingBody {
 [[nodiscard]] std::vector<Collision> find_body_collisions(
     const Workpiece& workpiece, const std::vector<NonCuttingBody>& bodies);
 
+// Blocks that feed through material while the spindle turns against the hand of the cutter, of each
+// stretch without a change of tool or spindle the first. The blocks of a tap, which goes in along
+// its axis and comes back with the spindle reversed, are none.
+[[nodiscard]] std::vector<std::uint32_t> cuts_against_hand(const Workpiece& workpiece);
+
 // Above any geometric error, below any collision that matters.
 inline constexpr double kCollisionMargin = 0.01;  // mm
 

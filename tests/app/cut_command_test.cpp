@@ -136,6 +136,63 @@ TEST_F(CutCommandSystem, Fault2_30_ABlankAwayFromTheToolPathIsAFault) {
   EXPECT_NE(away.err.find("nothing is removed: the tool, "), std::string::npos) << away.err;
 }
 
+// Passes of 5 and 8 mm with flutes of 4: the shank begins 1 mm below the top of the first one, and
+// at the bottom of the second it is in what the flutes have not reached.
+TEST_F(CutCommandSystem, Fault2_24_ACutDeeperThanTheFlutesIsACollisionOfTheShank) {
+  write_plate();
+  EXPECT_EQ(cut("--point 0,1,-8")["collisions"], 0);
+  replace_in("plate.toml", "flute_length = 30", "flute_length = 4");
+  const json doc = cut("--point 0,1,-8", 1);
+  ASSERT_FALSE(doc["collision_list"].empty());
+  const json& first = doc["collision_list"][0];
+  EXPECT_EQ(first["kind"], "body_in_material");
+  EXPECT_EQ(first["body"], "shank");
+  EXPECT_EQ(first["tool"], 1);
+  EXPECT_EQ(first["line"], 7);
+  EXPECT_NEAR(first["depth_mm"].get<double>(), 1.0, 0.03);
+  EXPECT_TRUE(first["text"].get<std::string>().starts_with(
+      "shank in material above the flutes during a feed move: tool T1, "))
+      << first["text"];
+  replace_in("plate.toml", ", flute_length = 4", "");
+  EXPECT_EQ(cut("--point 0,1,-8")["collisions"], 0);
+}
+
+TEST_F(CutCommandSystem, Fault2_30_TheSpindleAgainstTheHandOfTheToolIsAWarning) {
+  write_plate();
+  EXPECT_EQ(run("cut plate.toml --point 0,1,-8").err, "");
+  replace_in("plate.nc", "S1000 M3", "S1000 M4");
+  const std::string message =
+      "plate.nc:7: warning: tool T1 is a right-hand cutter and cuts while the "
+      "spindle turns counterclockwise (M4)";
+  const Outcome warned = run("cut plate.toml --point 0,1,-8");
+  EXPECT_EQ(warned.exit_code, 0) << warned.err;
+  EXPECT_NE(warned.err.find(message), std::string::npos) << warned.err;
+  EXPECT_EQ(warned.err.find("plate.nc:11"), std::string::npos) << warned.err;
+  const std::string checked = run("check plate.nc --job plate.toml").out;
+  EXPECT_NE(checked.find("spindle-hand"), std::string::npos) << checked;
+  replace_in("plate.toml", "length = 100", "length = 100, hand = \"left\"");
+  EXPECT_EQ(run("cut plate.toml --point 0,1,-8").err, "");
+  EXPECT_EQ(run("check plate.nc --job plate.toml").out.find("spindle-hand"), std::string::npos);
+}
+
+// A left-hand tap turns counterclockwise on the way in; its tool states no hand.
+TEST_F(CutCommandSystem, Fault2_30_ALeftHandTapIsNotAgainstTheHand) {
+  write_plate();
+  for (const std::string tap :
+       {"S500 M4\nG74 X0 Y0 Z-15 R5 F500", "M3 S500\nG84 X0 Y0 Z-15 R5 F500",
+        "M29 S500\nG74 X0 Y0 Z-15 R5 F500"}) {
+    std::ofstream(folder_ / "plate.nc") << "G21 G90 G17\nT1 M6\nS1000 M3\nG54 G43 H1\n"
+                                           "G0 X0 Y0 Z10\n"
+                                        << tap << "\nG80\nG0 Z50\nM30\n";
+    const Outcome tapped = run("cut plate.toml --point 5,0,-8");
+    EXPECT_EQ(tapped.exit_code, 0) << tapped.err;
+    EXPECT_EQ(tapped.err.find("-hand cutter"), std::string::npos) << tap << tapped.err;
+  }
+  // A drill that turns the wrong way.
+  replace_in("plate.nc", "M29 S500\nG74", "M4\nG81");
+  EXPECT_NE(run("cut plate.toml --point 5,0,-8").err.find("-hand cutter"), std::string::npos);
+}
+
 TEST_F(CutCommandSystem, WritesSnapshotsWithAnIndex) {
   write_plate();
   cut("--mesh film.ply --pitch 2 --snapshots 4");

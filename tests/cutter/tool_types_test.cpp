@@ -241,6 +241,52 @@ TEST(Cutter, ShankAndHolderStandBetweenFlutesAndGaugePoint) {
   EXPECT_NEAR(cutter.holder()->height(), 100.0, 0.0);
 }
 
+// Radius 5 less a relief of 0.05 mm, from the flutes to the holder or the gauge point.
+TEST(Cutter, Fault2_24_HasAShankAboveFlutesThatAreStated) {
+  CutterSpec spec{.diameter = {10.0}, .length = {100.0}, .flute_length = {10.0}};
+  const Cutter plain = made(spec);
+  ASSERT_TRUE(plain.shank());
+  EXPECT_NEAR(plain.shank()->generatrix().distance(4.95, 50.0), 0.0, 1e-12);
+  EXPECT_NEAR(plain.shank()->generatrix().distance(0.0, 10.0), 0.0, 1e-12);
+  EXPECT_NEAR(plain.shank()->height(), 100.0, 1e-12);
+  spec.holder = {{60.0, 40.0, 40.0}};
+  EXPECT_NEAR(made(spec).shank()->height(), 40.0, 1e-12);
+  spec.shank_diameter = {8.0};
+  EXPECT_NEAR(made(spec).shank()->max_radius(), 4.0, 1e-12);
+
+  // 10 mm of flank that leans out by 45 degrees, and in by 26.565.
+  CutterSpec taper{.type = CutterType::taper,
+                   .diameter = {20.0},
+                   .length = {100.0},
+                   .flute_length = {10.0},
+                   .taper_angle = 45.0_deg};
+  EXPECT_NEAR(made(taper).shank()->max_radius(), 19.95, 1e-9);
+  taper.taper_angle = {-std::atan(0.5)};
+  EXPECT_NEAR(made(taper).shank()->max_radius(), 4.95, 1e-9);
+
+  const CutterSpec whole{.diameter = {10.0}, .length = {100.0}};
+  EXPECT_FALSE(made(whole).shank());
+  const CutterSpec slot{
+      .type = CutterType::t_slot, .diameter = {20.0}, .length = {100.0}, .flute_length = {6.0}};
+  EXPECT_FALSE(made(slot).shank());
+}
+
+TEST(CutterFile, Fault2_30_HandIsReadAndWritten) {
+  const auto read = [](const std::string& hand) {
+    auto document =
+        TomlDocument::parse("type = \"flat\"\ndiameter = 10\nlength = 80\n" + hand, "tool.toml");
+    EXPECT_TRUE(document);
+    const CutterSpec spec = read_cutter(document->root());
+    return std::pair(spec, has_error(document->finish()));
+  };
+  EXPECT_EQ(read("").first.hand, CutterHand::right);
+  const CutterSpec left = read("hand = \"left\"\n").first;
+  EXPECT_EQ(left.hand, CutterHand::left);
+  EXPECT_TRUE(read("hand = \"both\"\n").second);
+  EXPECT_NE(cutter_text(left).find("hand = \"left\""), std::string::npos);
+  EXPECT_EQ(cutter_text(read("").first).find("hand"), std::string::npos);
+}
+
 TEST(Outline, WhatIsNoMeridianIsRefused) {
   const auto refused = [](std::vector<GeneratrixSegment> chain, std::string_view why) {
     const auto generatrix = Generatrix::make(std::move(chain));

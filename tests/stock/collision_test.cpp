@@ -12,6 +12,7 @@ namespace frustum::stock {
 namespace {
 
 using kinematics::PathKind;
+using kinematics::SpindleDirection;
 using testing::cut;
 using testing::end_mill;
 using testing::path_through;
@@ -38,10 +39,10 @@ std::vector<Collision> of_slot(const std::vector<double>& floors, const NonCutti
 TEST(Collision, StandingToolsMayGoBackThroughEachSlotThatTheyHaveCut) {
   kinematics::ToolPath path = path_through(std::vector<Vec3>{
       {-70, 0, -5}, {70, 0, -5}, {-70, 0, -5}, {-70, 20, -5}, {70, 20, -5}, {-70, 20, -5}});
-  path.blocks[1].spindle_on = path.blocks[4].spindle_on = false;
+  path.blocks[1].spindle = path.blocks[4].spindle = SpindleDirection::off;
   EXPECT_TRUE(find_collisions(cut(path, end_mill(10.0, 20.0))).empty());
   // Without the second slot the way back is closed.
-  path.blocks[3].spindle_on = false;
+  path.blocks[3].spindle = SpindleDirection::off;
   EXPECT_FALSE(find_collisions(cut(path, end_mill(10.0, 20.0))).empty());
 }
 
@@ -54,6 +55,75 @@ TEST(BodyCollision, OfAShankInASlotDeeperThanItsFlutes) {
   EXPECT_EQ(found[0].source_line, 10U);
   EXPECT_EQ(found[0].tool, 1);
   EXPECT_NEAR(found[0].depth, 3.0, 0.03);
+}
+
+// Nothing is stated but flute_length. The shank begins 6 mm above the tip: 3 mm below the top.
+TEST(BodyCollision, Fault2_24_OfAToolThatStatesNoShank) {
+  const auto found_in = [](const std::vector<Vec3>& tips, double flutes) {
+    return find_collisions(cut(path_through(tips), end_mill(10.0, flutes)));
+  };
+  const auto found = found_in({{-70, 0, -9}, {70, 0, -9}}, 6.0);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].kind, CollisionKind::body_in_material);
+  EXPECT_EQ(found[0].body, CollisionBody::shank);
+  EXPECT_EQ(found[0].source_line, 10U);
+  EXPECT_NEAR(found[0].depth, 3.0, 0.03);
+  // Deep enough flutes, none stated, and passes that are each no deeper than the flutes.
+  EXPECT_TRUE(found_in({{-70, 0, -9}, {70, 0, -9}}, 9.0).empty());
+  EXPECT_TRUE(found_in({{-70, 0, -9}, {70, 0, -9}}, 0.0).empty());
+  EXPECT_TRUE(
+      found_in(
+          {{-70, 0, -6}, {70, 0, -6}, {70, 0, -12}, {-70, 0, -12}, {-70, 0, -18}, {70, 0, -18}},
+          6.0)
+          .empty());
+  // A hole: what the flutes have left open is no obstacle.
+  EXPECT_TRUE(found_in({{0, 0, 10}, {0, 0, -19}, {0, 0, 10}}, 6.0).empty());
+  // The second pass is 0.03 mm beside the first: within the relief of the shank; 0.2 mm are not.
+  EXPECT_TRUE(
+      found_in({{-70, 0, -6}, {70, 0, -6}, {70, 0.03, -12}, {-70, 0.03, -12}}, 6.0).empty());
+  EXPECT_FALSE(found_in({{-70, 0, -6}, {70, 0, -6}, {70, 0.2, -12}, {-70, 0.2, -12}}, 6.0).empty());
+}
+
+// In air, then into the block twice, then in the slot that is there.
+TEST(CutsAgainstHand, Fault2_30_AreToldOncePerStretch) {
+  kinematics::ToolPath path = path_through(std::vector<Vec3>{{-70, 0, 5},
+                                                             {-70, 0, -5},
+                                                             {0, 0, -5},
+                                                             {70, 0, -5},
+                                                             {-70, 0, -5},
+                                                             {-70, 20, -5},
+                                                             {70, 20, -5}});
+  const auto all = [&path](SpindleDirection direction) {
+    for (auto& block : path.blocks) block.spindle = direction;
+  };
+  using Blocks = std::vector<std::uint32_t>;
+  EXPECT_EQ(cuts_against_hand(cut(path)), Blocks{});
+  all(SpindleDirection::off);
+  EXPECT_EQ(cuts_against_hand(cut(path)), Blocks{});
+  all(SpindleDirection::counterclockwise);
+  EXPECT_EQ(cuts_against_hand(cut(path)), Blocks{1});
+  path.blocks[4].spindle = SpindleDirection::clockwise;
+  EXPECT_EQ(cuts_against_hand(cut(path)), (Blocks{1, 5}));
+
+  cutter::CutterSpec left = end_mill().spec();
+  left.hand = cutter::CutterHand::left;
+  const auto by_left = [&] { return cuts_against_hand(cut(path, *cutter::Cutter::make(left))); };
+  EXPECT_EQ(by_left(), Blocks{});
+  all(SpindleDirection::clockwise);
+  EXPECT_EQ(by_left(), Blocks{1});
+}
+
+// A tap comes back along its axis with the spindle reversed; a drill comes back as it went in.
+TEST(CutsAgainstHand, Fault2_30_AreNotThoseOfATap) {
+  kinematics::ToolPath path =
+      path_through(std::vector<Vec3>{{0, 0, 5}, {0, 0, -5}, {0, 0, -10}, {0, 0, 5}, {9, 0, 5}});
+  for (auto& block : path.blocks) block.spindle = SpindleDirection::counterclockwise;
+  EXPECT_EQ(cuts_against_hand(cut(path)), std::vector<std::uint32_t>{0});
+  path.blocks[2].spindle = SpindleDirection::clockwise;
+  EXPECT_TRUE(cuts_against_hand(cut(path)).empty());
+  // Reversed after it has left the hole by rapid.
+  path.blocks[2].kind = PathKind::rapid;
+  EXPECT_EQ(cuts_against_hand(cut(path)), std::vector<std::uint32_t>{0});
 }
 
 TEST(BodyCollision, DoesNotCountWhatWasCutBefore_Complaint16) {

@@ -209,6 +209,25 @@ TEST(Trial, ReportsFeedsWithTheSpindleOffWithTheirLine) {
   EXPECT_EQ(trial->collisions[0].kind, stock::CollisionKind::feed_with_spindle_off);
 }
 
+// Line 6 cuts; after the change of direction line 10 does.
+TEST(Trial, Fault2_30_WarnsOfCutsAgainstTheHandOfTheTool) {
+  const std::string head = "G21 G90 G17\nT1 M6\nS1000 ";
+  const std::string tail =
+      "\nG54 G43 H1\nG0 X-60 Y0 Z-5\nG1 X60 F300\nX-60\nM3\nG1 X60 Z-8\nM4 X-60 Z-11\nG0 "
+      "Z10\nM30\n";
+  const auto lines = [&](const std::string& nc) {
+    const auto trial = plate(nc);
+    EXPECT_TRUE(trial) << to_string(trial.error().front());
+    std::vector<int> found;
+    for (const Diagnostic& d : trial ? trial->warnings : Diagnostics{}) {
+      if (d.id == "spindle-hand"_id) found.push_back(d.line);
+    }
+    return found;
+  };
+  EXPECT_EQ(lines(head + "M4" + tail), (std::vector<int>{6, 10}));
+  EXPECT_EQ(lines(head + "M3" + tail), std::vector<int>{10});
+}
+
 TEST(Trial, HasNoPhantomContactAtTheStart_Complaint11) {
   // Complaint 11: the first rapid comes from the machine's home, not through the part, and a rapid
   // along the wall just cut is no collision.
