@@ -17,7 +17,7 @@ help:
 	@echo 'make laws          set up, build, and run every test, the laws at full length'
 	@echo 'make build         set up and build; the program is build/frustum'
 	@echo 'make asan          the tests under the address and undefined-behaviour sanitizers'
-	@echo 'make fuzz          libFuzzer on NC dialects, plans, points, machines, FUZZ_SECONDS=600 each, JOBS at a time'
+	@echo 'make fuzz          libFuzzer on NC dialects, plans, points, machines, jobs, FUZZ_SECONDS=600 each, JOBS at a time'
 	@echo 'make bench         build and run the benchmarks'
 	@echo 'make format        format every source file; make check-format only looks'
 	@echo 'make tidy          clang-tidy over the sources (make tidy FILES="core/pose.cpp" for some)'

@@ -189,7 +189,8 @@ Diagnostic unknown_feature(const InspectionPlan& plan, const FeaturePoints& poin
 
 }  // namespace
 
-Result<Measurement> measure(const InspectionPlan& plan, SurfaceProbeRef part, const CmmModel& cmm) {
+Result<Measurement> measure(const InspectionPlan& plan, SurfaceProbeRef part, const CmmModel& cmm,
+                            NoErrors mean) {
   if (Diagnostics faults = check(plan); has_error(faults)) return faults;
   if (cmm.stylus && cmm.stylus->diameter >= plan.probe.ball_diameter) {
     return error("stylus-shank"_id,
@@ -222,7 +223,7 @@ Result<Measurement> measure(const InspectionPlan& plan, SurfaceProbeRef part, co
     if (!feature) return std::move(feature).error();
     features.push_back(std::move(*feature));
   }
-  auto measurement = evaluated(plan, std::move(features), cmm, MeasuredBy::virtual_cmm);
+  auto measurement = evaluated(plan, std::move(features), cmm, mean);
   if (measurement) {
     for (Diagnostic& d : probing.collisions()) measurement->diagnostics.push_back(std::move(d));
     auto touches = std::move(probing).touches();
@@ -259,7 +260,7 @@ Result<Measurement> evaluate(const InspectionPlan& plan, std::span<const Feature
     }
     fitted.push_back(std::move(*fit));
   }
-  auto measurement = evaluated(plan, std::move(fitted), cmm, MeasuredBy::real_cmm);
+  auto measurement = evaluated(plan, std::move(fitted), cmm, NoErrors::unknown);
   if (!measurement) return measurement;
   const NameIndex found(measurement->features, &MeasuredFeature::name);
   for (const PlannedFeature& feature : plan.features) {

@@ -29,7 +29,8 @@
 namespace frustum::metrology {
 
 [[nodiscard]] Result<Measurement> measure(const InspectionPlan& plan, SurfaceProbeRef part,
-                                          const CmmModel& cmm = {});
+                                          const CmmModel& cmm = {},
+                                          NoErrors mean = NoErrors::ideal);
 
 // Evaluates real CMM points. `cmm` states the machine's accuracy for the uncertainties only; one
 // without errors states none.

@@ -114,11 +114,11 @@ std::optional<Diagnostic> corrected(const Measurement& measurement) {
 }  // namespace
 
 Result<Measurement> evaluated(const InspectionPlan& plan, std::vector<FittedFeature> features,
-                              const CmmModel& cmm, MeasuredBy by) {
+                              const CmmModel& cmm, NoErrors mean) {
   auto measurement = evaluated_values(plan, features);
   if (!measurement) return measurement;
   const PointUncertainty u = point_uncertainty(cmm);
-  const bool is_unknown = u.is_zero() && by == MeasuredBy::real_cmm;
+  const bool is_unknown = u.is_zero() && mean == NoErrors::unknown;
   for (CharacteristicResult& c : measurement->characteristics) c.is_accuracy_unknown = is_unknown;
   if (!u.is_zero()) {
     const auto uncertain = linear_uncertainty(plan, features, u);

@@ -18,14 +18,10 @@
 
 namespace frustum::metrology {
 
-// A virtual machine without errors is ideal; a real one of which nothing is stated is unknown.
-enum class MeasuredBy { virtual_cmm, real_cmm };
-
 // `features` are in the workpiece frame. With uncertainties by simulation and verdicts by the rule
 // that the plan asks for.
 [[nodiscard]] Result<Measurement> evaluated(const InspectionPlan& plan,
                                             std::vector<FittedFeature> features,
-                                            const CmmModel& cmm,
-                                            MeasuredBy by = MeasuredBy::virtual_cmm);
+                                            const CmmModel& cmm, NoErrors mean = NoErrors::ideal);
 
 }  // namespace frustum::metrology

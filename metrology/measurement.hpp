@@ -114,7 +114,8 @@ struct CharacteristicResult {
   double standard_uncertainty = 0.0;                // in `unit`
   std::optional<TrueValueInterval> interval{};      // where the accuracy of the CMM is stated
   std::optional<SimulatedUncertainty> simulated{};  // where the plan asks for it
-  bool is_accuracy_unknown = false;  // a real machine measured, and nothing is stated of it
+  // A real machine measured, or made the mesh that was measured, and nothing is stated of it.
+  bool is_accuracy_unknown = false;
   bool pass = false;
   bool uncertain = false;  // not passed for the uncertainty alone
   [[nodiscard]] Verdict verdict() const;

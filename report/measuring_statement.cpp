@@ -22,17 +22,23 @@ using metrology::PlannedCharacteristic;
 
 std::string source_text(const CmmModel& cmm, PointSource source) {
   if (source == PointSource::measured_points) return "points of a CMM, read from a file";
-  if (metrology::point_uncertainty(cmm).is_zero()) return "virtual CMM";
+  const char* const probed = source == PointSource::mesh ? "virtual CMM on a mesh" : "virtual CMM";
+  if (metrology::point_uncertainty(cmm).is_zero()) return probed;
   const bool is_field = cmm.kind == metrology::CmmKind::field;
-  return fmt::format("virtual CMM, {}, seed {}",
+  return fmt::format("{}, {}, seed {}", probed,
                      is_field ? "21 parametric errors" : "linear error field and noise", cmm.seed);
 }
 
 std::string accuracy_text(const CmmModel& cmm, PointSource source) {
   if (metrology::point_uncertainty(cmm).is_zero()) {
-    return source == PointSource::virtual_cmm
-               ? "ideal, E0 = 0: the machine makes no error, and every U is 0"
-               : "not stated: every U is 0, which says nothing about the machine";
+    switch (source) {
+      case PointSource::virtual_cmm:
+        return "ideal, E0 = 0: the machine makes no error, and every U is 0";
+      case PointSource::mesh:
+        return "not stated: the mesh counts as the part, and every U is 0";
+      case PointSource::measured_points:
+        return "not stated: every U is 0, which says nothing about the machine";
+    }
   }
   std::string text = fmt::format("E0 = {:g} µm", cmm.e0_mm * kUmPerMm);
   if (source == PointSource::measured_points && !cmm.length_per_error) {
@@ -162,7 +168,7 @@ std::string parameters_text(const InspectionPlan& plan) {
 std::string uncertainty_text_of(const InspectionPlan& plan, const CmmModel& cmm,
                                 PointSource source) {
   const bool is_zero = metrology::point_uncertainty(cmm).is_zero();
-  if (is_zero && source == PointSource::measured_points) {
+  if (is_zero && source != PointSource::virtual_cmm) {
     return "not stated: nothing is said of how far the values are from the truth";
   }
   std::vector<std::string> unproven;

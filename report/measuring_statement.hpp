@@ -14,7 +14,7 @@
 namespace frustum::report {
 
 // Where the points come from.
-enum class PointSource { virtual_cmm, measured_points };
+enum class PointSource { virtual_cmm, mesh, measured_points };
 
 // Facts with the keys source, accuracy, probe, stylus, temperature, alignment, filter, association,
 // parameter, uncertainty, decision_rule; those of which nothing is known or that do not apply are

@@ -28,7 +28,7 @@ enum class Outcome { pass, fail, uncertain, not_measured };
 // Every characteristic states an uncertainty of exactly 0: nothing is known of the machine that
 // measured, or it is ideal.
 [[nodiscard]] bool has_no_uncertainty(const metrology::Measurement& measurement);
-// A real machine measured, and nothing is stated of it.
+// A real machine measured, or made the mesh that was measured, and nothing is stated of it.
 [[nodiscard]] bool is_accuracy_unknown(const metrology::Measurement& measurement);
 
 }  // namespace frustum::report

@@ -75,8 +75,6 @@ void add_setup_options(Command& command, SetupWords& words);
 void add_control_options(Command& command, SetupWords& words);
 // The options that say how a command answers: --json, --quiet.
 void add_answer_options(Command& command, AnswerOptions& options);
-// Of a command that prints nothing but its result.
-void add_json_option(Command& command, AnswerOptions& options);
 // --export FILE, which may be repeated, besides.
 struct ResultOptions : AnswerOptions {
   std::vector<std::string> exports{};

@@ -9,12 +9,8 @@
 
 namespace frustum::app {
 
-void add_json_option(Command& command, AnswerOptions& options) {
-  command.flag("--json", options.json, "One JSON document on stdout and nothing else");
-}
-
 void add_answer_options(Command& command, AnswerOptions& options) {
-  add_json_option(command, options);
+  command.flag("--json", options.json, "One JSON document on stdout and nothing else");
   command.flag("--quiet", options.quiet, "No progress, no summary");
 }
 

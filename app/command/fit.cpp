@@ -195,7 +195,11 @@ int fit(const FitOptions& o) {
     for (Diagnostic& d : problems) d.file = o.points;
     return refuse(problems, o);
   }
-  std::cout << (o.json ? fit_json(o, *found) : fit_text(o, *found, cloud->points.size()));
+  if (o.json) {
+    std::cout << fit_json(o, *found);
+  } else if (!o.quiet) {
+    std::cout << fit_text(o, *found, cloud->points.size());
+  }
   return kDone;
 }
 
@@ -243,7 +247,7 @@ void add_fit(Command& program) {
   add_constraints(command, *o);
   command.flag("--unweighted", o->unweighted, "Leave the column weight of the file aside");
   add_unit_option(command, o->unit);
-  add_json_option(command, *o);
+  add_answer_options(command, *o);
   command.footer("Example: frustum fit cylinder points.csv --criterion mz --axis 0,0,1 --json");
   command.computes([o] { return fit(*o); });
 }

@@ -36,7 +36,7 @@ int list_machines(const MachinesOptions& options) {
                       {"structure", machine->structure()},
                       {"title", machine->title()},
                       {"file", file.string()}});
-    } else {
+    } else if (!options.quiet) {
       std::cout << fmt::format("{:<20} {:<24} {}\n", machine->name(), machine->structure(),
                                machine->title());
     }
@@ -113,6 +113,7 @@ int list_errors(const MachinesOptions& options) {
               << '\n';
     return kDone;
   }
+  if (options.quiet) return kDone;
   std::cout << fmt::format("{}  {}  {}\n\naxes, from the bed outwards\n", machine->name(),
                            machine->structure(), machine->title());
   for (const auto& axis : axes) {
@@ -145,7 +146,7 @@ int list_errors(const MachinesOptions& options) {
 void add_machines(Command& program) {
   auto options = std::make_shared<MachinesOptions>();
   Command command = program.command("machines", "List the machines that ship");
-  add_json_option(command, *options);
+  add_answer_options(command, *options);
   command.runs([options] { return list_machines(*options); });
 }
 
@@ -158,7 +159,7 @@ void add_errors(Command& program) {
       .option("machine,--machine", options->machine,
               "Machine file, or the name of a shipped machine")
       .required();
-  add_json_option(command, *options);
+  add_answer_options(command, *options);
   command.footer("Example: frustum errors iwf-bc");
   command.runs([options] { return list_errors(*options); });
 }

@@ -66,26 +66,25 @@ int measure_job(const MeasureOptions& options) {
   return write_and_show(report, job->piece.plan, *exports, options);
 }
 
-// What every U of points lacks, as nothing else is known of the machine that measured them.
+// What every U of points or a mesh lacks, as nothing else is known of the machine that measured
+// them.
 std::optional<Diagnostic> missing_accuracy(const CmmModel& cmm) {
   constexpr const char* kState =
       "state its accuracy with --e0 \"1.8 um\" --l-per-um 350, or --cmm FILE";
   Diagnostic missing;
   if (metrology::point_uncertainty(cmm).is_zero()) {
     missing = warning("unknown-accuracy"_id,
-                      "nothing is known of the machine that measured these points: uncertainties "
-                      "are 0",
-                      kState);
+                      "nothing is known of the machine that measured: uncertainties are 0", kState);
   } else if (!cmm.length_per_error) {
     missing = warning("unknown-accuracy"_id,
-                      "how the errors of the machine that measured these points grow with length "
-                      "(l_per_um) is not stated: no U contains that",
+                      "how the errors of the machine that measured grow with length (l_per_um) is "
+                      "not stated: no U contains that",
                       kState);
   } else if (cmm.e0_mm == 0.0 && !cmm.probe) {
     missing =
         warning("unknown-accuracy"_id,
-                "the error of a single point (e0) of the machine that measured these points is "
-                "not stated: no U contains it",
+                "the error of a single point (e0) of the machine that measured is not stated: no "
+                "U contains it",
                 kState);
   } else {
     return std::nullopt;
@@ -106,12 +105,7 @@ Result<metrology::Measurement> evaluated_points(const MeasureOptions& options,
   }
   const auto meaning = options.ball_centres ? metrology::PointMeaning::ball_centre
                                             : metrology::PointMeaning::surface;
-  auto measurement = metrology::evaluate(plan, *points, meaning, cmm);
-  if (!measurement) return measurement;
-  if (auto missing = missing_accuracy(cmm)) {
-    measurement->diagnostics.push_back(*std::move(missing));
-  }
-  return measurement;
+  return metrology::evaluate(plan, *points, meaning, cmm);
 }
 
 Result<metrology::Measurement> probed_mesh(const MeasureOptions& options,
@@ -120,7 +114,8 @@ Result<metrology::Measurement> probed_mesh(const MeasureOptions& options,
                                            const CmmModel& cmm) {
   const auto probe = trials::read_mesh_probe(options.mesh, unit, plan);
   if (!probe) return probe.error();
-  auto measurement = metrology::measure(plan, *probe, cmm);
+  // An ideal machine would probe the mesh without error; how far that is from the part nobody says.
+  auto measurement = metrology::measure(plan, *probe, cmm, metrology::NoErrors::unknown);
   if (measurement && probe->note()) measurement->diagnostics.push_back(*probe->note());
   if (measurement) return measurement;
   Diagnostics faults = measurement.error();
@@ -137,8 +132,7 @@ Result<report::Evidence> evidence_of(const MeasureOptions& options, const Inspec
   evidence.header = plan.header;
   const bool is_probed = !options.mesh.empty();
   evidence.measuring = report::measuring_statement(
-      plan, cmm,
-      is_probed ? report::PointSource::virtual_cmm : report::PointSource::measured_points);
+      plan, cmm, is_probed ? report::PointSource::mesh : report::PointSource::measured_points);
   const std::pair<const char*, const std::string&> files[] = {{"plan", options.plan},
                                                               {"points", options.points},
                                                               {"mesh", options.mesh},
@@ -166,6 +160,9 @@ int measure_by_plan(const MeasureOptions& options) {
   if (!measurement) {
     write_failed_exports(*exports, measurement.error(), *plan);
     return refuse(measurement.error(), options);
+  }
+  if (auto missing = missing_accuracy(*cmm)) {
+    measurement->diagnostics.push_back(*std::move(missing));
   }
   auto evidence = evidence_of(options, *plan, *cmm);
   if (!evidence) return refuse(evidence.error(), options);

@@ -130,6 +130,7 @@ int forward(const PoseOptions& options, const Machine& machine,
     std::cout << doc.dump(2) << '\n';
     return kDone;
   }
+  if (options.quiet) return kDone;
   const auto row = [](const char* name, const Vec3& v, const char* unit) {
     std::cout << fmt::format("{:<22} {:>16.9f} {:>16.9f} {:>16.9f} {}\n", name, v.x(), v.y(), v.z(),
                              unit);
@@ -165,6 +166,7 @@ int inverse(const PoseOptions& options, const Machine& machine) {
     std::cout << ordered_json{{"schema", "frustum/pose/1"}, {"solutions", list}}.dump(2) << '\n';
     return kDone;
   }
+  if (options.quiet) return kDone;
   for (const auto& s : list) {
     for (const auto& [name, value] : s["axes"].items()) {
       std::cout << fmt::format("{} {:.9f}  ", name, value.get<double>());
@@ -217,7 +219,7 @@ void add_pose(Command& program) {
   add_error_options(command, options->errors);
   command.option("--tool-length", options->tool_length,
                  "mm, default 0: the tip is the gauge point");
-  add_json_option(command, *options);
+  add_answer_options(command, *options);
   command.footer(
       "Shapes without a span extend over the axis's travel.\n"
       "Example: frustum pose --machine zx-yac --axes \"X=10,A=-30,C=45\" --error beta_CA=20urad");

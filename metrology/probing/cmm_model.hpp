@@ -50,6 +50,9 @@ struct ThermalState {
   bool operator==(const ThermalState&) const = default;
 };
 
+// What a CmmModel without errors is: an ideal virtual machine, or one of which nothing is stated.
+enum class NoErrors { ideal, unknown };
+
 // E = e0 + L / length_per_error. The default is an ideal machine: no error at all.
 struct CmmModel {
   double e0_mm = 0.0;

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string_view>
+#include <variant>
 
 #include "core/units.hpp"
 
@@ -13,6 +14,27 @@ namespace frustum::parser {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// In the order of Command.
+constexpr std::array kTypes{"traverse",
+                            "home",
+                            "feed",
+                            "arc",
+                            "probe",
+                            "dwell",
+                            "tool_change",
+                            "compensation",
+                            "work_offset",
+                            "work_offset_setting",
+                            "orientation_path",
+                            "rotary_path",
+                            "tilted_plane",
+                            "align_to_plane",
+                            "spindle",
+                            "coolant",
+                            "stop",
+                            "event"};
+static_assert(kTypes.size() == std::variant_size_v<Command>);
 
 constexpr std::array kPlanes{"XY", "ZX", "YZ"};
 constexpr std::array kDirections{"off", "clockwise", "counterclockwise"};
@@ -64,15 +86,13 @@ void add_feed(Json& json, const Feed& feed) {
   if (feed.synchronised) json["synchronised"] = true;
 }
 
-// One overload a command: writes the type and what belongs to it.
+// One overload a command: writes what belongs to it.
 void add(Json& json, const Traverse& traverse) {
-  json["type"] = "traverse";
   json["end"] = json_of(traverse.end);
   add_tool_axis(json, traverse.tool_axis);
   add_coordinates(json, traverse.coordinates);
 }
 void add(Json& json, const HomeReturn& home) {
-  json["type"] = "home";
   json["axes"] = Json::array();
   for (const AxisLetter axis : kAxisLetters) {
     if (home.axes.at(static_cast<std::size_t>(axis)))
@@ -81,14 +101,12 @@ void add(Json& json, const HomeReturn& home) {
   if (home.point != 1) json["point"] = home.point;
 }
 void add(Json& json, const LinearFeed& feed) {
-  json["type"] = "feed";
   json["end"] = json_of(feed.end);
   add_tool_axis(json, feed.tool_axis);
   add_coordinates(json, feed.coordinates);
   add_feed(json, feed.feed);
 }
 void add(Json& json, const ArcFeed& arc) {
-  json["type"] = "arc";
   json["end"] = json_of(arc.end);
   json["center"] = json_of(arc.center);
   json["plane"] = name_in(kPlanes, arc.plane);
@@ -97,35 +115,23 @@ void add(Json& json, const ArcFeed& arc) {
   add_feed(json, arc.feed);
 }
 void add(Json& json, const Probe& probe) {
-  json["type"] = "probe";
   json["end"] = json_of(probe.end);
   json["away"] = probe.away;
   json["must_meet"] = probe.must_meet;
   add_tool_axis(json, probe.tool_axis);
   add_feed(json, probe.feed);
 }
-void add(Json& json, const Dwell& dwell) {
-  json["type"] = "dwell";
-  json["seconds"] = dwell.seconds;
-}
-void add(Json& json, const ToolChange& change) {
-  json["type"] = "tool_change";
-  json["tool"] = change.tool;
-}
+void add(Json& json, const Dwell& dwell) { json["seconds"] = dwell.seconds; }
+void add(Json& json, const ToolChange& change) { json["tool"] = change.tool; }
 void add(Json& json, const CompensationChange& change) {
-  json["type"] = "compensation";
   json["mode"] = name_in(kLengthModes, change.mode);
   json["tool_vectors"] = change.tool_vectors;
   json["offset"] = change.offset_number;
   if (change.length) json["length"] = *change.length;
   if (change.negative) json["negative"] = true;
 }
-void add(Json& json, const WorkOffsetChange& change) {
-  json["type"] = "work_offset";
-  json["number"] = change.number;
-}
+void add(Json& json, const WorkOffsetChange& change) { json["number"] = change.number; }
 void add(Json& json, const WorkOffsetSetting& setting) {
-  json["type"] = "work_offset_setting";
   json["number"] = setting.number;
   json["origin"] = Json::object();
   for (std::size_t i = 0; i < setting.origin.size(); ++i) {
@@ -134,11 +140,9 @@ void add(Json& json, const WorkOffsetSetting& setting) {
   }
 }
 void add(Json& json, const OrientationPathChange& change) {
-  json["type"] = "orientation_path";
   json["path"] = name_in(kOrientationPaths, change.path);
 }
 void add(Json& json, const RotaryPathChange& change) {
-  json["type"] = "rotary_path";
   json["path"] = name_in(kRotaryPaths, change.path);
   if (change.axes == RotaryPathChange{}.axes) return;
   json["axes"] = Json::array();
@@ -147,29 +151,20 @@ void add(Json& json, const RotaryPathChange& change) {
   }
 }
 void add(Json& json, const TiltedPlaneChange& change) {
-  json["type"] = "tilted_plane";
   if (!change.program_from_plane) return;
   const Pose& plane = *change.program_from_plane;
   json["origin"] = json_of(plane.translation);
   json["x"] = json_of(plane.rotation.col(0));
   json["z"] = json_of(plane.rotation.col(2));
 }
-void add(Json& json, const AlignToPlane& /*align*/) { json["type"] = "align_to_plane"; }
+void add(Json& /*json*/, const AlignToPlane& /*align*/) {}
 void add(Json& json, const SpindleChange& change) {
-  json["type"] = "spindle";
   json["direction"] = name_in(kDirections, change.direction);
   json["speed"] = change.speed;
 }
-void add(Json& json, const CoolantChange& change) {
-  json["type"] = "coolant";
-  json["flood"] = change.flood;
-}
-void add(Json& json, const Stop& stop) {
-  json["type"] = "stop";
-  json["kind"] = name_in(kStopKinds, stop.kind);
-}
+void add(Json& json, const CoolantChange& change) { json["flood"] = change.flood; }
+void add(Json& json, const Stop& stop) { json["kind"] = name_in(kStopKinds, stop.kind); }
 void add(Json& json, const Event& event) {
-  json["type"] = "event";
   json["name"] = event.name;
   json["text"] = event.text;
   if (event.grade != EventGrade::known) json["grade"] = name_in(kEventGrades, event.grade);
@@ -177,10 +172,13 @@ void add(Json& json, const Event& event) {
 
 }  // namespace
 
+std::string_view type_of(const Command& command) { return kTypes.at(command.index()); }
+
 std::string to_json_line(const Motion& motion) {
   Json json;
   json["line"] = motion.place.line;
   if (motion.place.file) json["file"] = *motion.place.file;
+  json["type"] = type_of(motion.command);
   std::visit([&json](const auto& command) { add(json, command); }, motion.command);
   // An event's text may come from elsewhere than a program, so bytes that are no text are replaced.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);

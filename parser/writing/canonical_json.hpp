@@ -12,11 +12,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "core/diagnostic.hpp"
 #include "parser/motion.hpp"
 
 namespace frustum::parser {
+
+// As in the list above.
+[[nodiscard]] std::string_view type_of(const Command& command);
 
 // Without a line feed.
 [[nodiscard]] std::string to_json_line(const Motion& motion);

@@ -181,6 +181,10 @@ std::string text_of(const Json& json) {
 
 }  // namespace
 
+std::string diagnostics_json(const Diagnostics& diagnostics) {
+  return text_of(array_of(diagnostics, diagnostic_json));
+}
+
 std::string json_failure(const Diagnostics& diagnostics) {
   return text_of({{"schema", "frustum/failure/1"},
                   {"status", "error"},

@@ -27,6 +27,10 @@ namespace frustum::report {
 // document, under "machine_collisions".
 [[nodiscard]] std::string machine_bodies_json(const MachineBodies& bodies);
 
+// [{"severity","id","message","file","line","column","key","hint"}, ..]: a part of the document,
+// under "diagnostics"; keys that would say nothing are left out.
+[[nodiscard]] std::string diagnostics_json(const Diagnostics& diagnostics);
+
 // What a command prints instead where it has no result: {"status":"error","diagnostics":[..]}.
 [[nodiscard]] std::string json_failure(const Diagnostics& diagnostics);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdint>
 #include <sstream>
 
@@ -34,6 +35,11 @@ std::string uuid_of(std::string_view text) {
   const std::uint64_t low = digest(text, 0x84222325cbf29ce4U);
   return fmt::format("{:08x}-{:04x}-8{:03x}-{:04x}-{:012x}", high >> 32U, (high >> 16U) & 0xffffU,
                      high & 0xfffU, 0x8000U | ((low >> 48U) & 0x3fffU), low & 0xffffffffffffU);
+}
+
+const char* status_of(metrology::Verdict verdict) {
+  constexpr std::array kStatus{"PASS", "FAIL", "UNKNOWN"};  // in the order of Verdict
+  return kStatus.at(static_cast<std::size_t>(verdict));
 }
 
 void add_standard(xml_node root, int id) {
@@ -105,8 +111,7 @@ void add_results(xml_node root, const RunReport& report, const metrology::Inspec
   add_traceability(results, report.evidence.header);
   add_measured_features(results, plan, report.measurement, ids, features);
   add_measured_characteristics(results, plan, report.measurement, ids, features, items);
-  add_text(add(results, "InspectionStatus"), "InspectionStatusEnum",
-           report.passes() ? "PASS" : "FAIL");
+  add_text(add(results, "InspectionStatus"), "InspectionStatusEnum", status_of(report.verdict()));
   close_list(set);
 }
 

@@ -108,6 +108,36 @@ TEST_F(CommandHabitsSystem, Fault2_43_QuietCommandsPrintNothingAndJsonOnesADocum
   EXPECT_EQ(run("diff piece/cone.nc b.mpf --job piece/job.toml --quiet").out, "");
 }
 
+TEST_F(CommandHabitsSystem, Attack2_13_CommandsThatOnlyAnswerCanBeQuiet) {
+  std::ofstream(folder_ / "p.csv") << "0,0,0\n1,0,0\n0,1,0\n1,1,0.1\n";
+  for (const char* command :
+       {"pose iwf-bc --axes X=1", "pose iwf-bc --inverse 0,0,100,0,0,1", "fit plane p.csv",
+        "machines", "errors iwf-bc", "parse - --dialect fanuc </dev/null"}) {
+    EXPECT_EQ(run(std::string(command) + " --quiet").out, "") << command;
+  }
+  EXPECT_EQ(run("fit plane none.csv --quiet").exit_code, 2);
+}
+
+TEST_F(CommandHabitsSystem, Attack2_13_AParsedProgramIsADocument) {
+  std::ofstream(folder_ / "part.nc") << "O1\nG21 G90\nG0 X1 Y2\nG1 Z-1 F100\nM107\nX5\nM30\n";
+  const Outcome parsed = run("parse part.nc --dialect fanuc --json");
+  EXPECT_EQ(parsed.exit_code, 0) << parsed.err;
+  const auto doc = nlohmann::json::parse(parsed.out);
+  EXPECT_EQ(doc["schema"], "frustum/parse/1");
+  EXPECT_EQ(doc["dialect"], "fanuc");
+  EXPECT_TRUE(doc["recognised_by"].is_null());
+  EXPECT_EQ(doc["motions"]["traverse"], 1);
+  EXPECT_EQ(doc["motions"]["feed"], 2);
+  EXPECT_EQ(doc["diagnostics"][0]["id"], "builder-word");
+  EXPECT_EQ(doc["diagnostics"][0]["line"], 5);
+  EXPECT_TRUE(nlohmann::json::parse(run("parse part.nc --json").out)["recognised_by"].is_string());
+  std::ofstream(folder_ / "bad.nc") << "O1\nG1 X\nM30\n";
+  const Outcome bad = run("parse bad.nc --dialect fanuc --json");
+  EXPECT_EQ(bad.exit_code, 2);
+  EXPECT_EQ(nlohmann::json::parse(bad.out)["diagnostics"][0]["line"], 2);
+  EXPECT_EQ(run("parse part.nc --json --canon").exit_code, 2);
+}
+
 TEST_F(CommandHabitsSystem, Fault2_43_APoseBeyondTravelSaysSo) {
   const Outcome pose = run("pose --machine iwf-bc --axes X=1000");
   EXPECT_EQ(pose.exit_code, 0);
@@ -153,6 +183,7 @@ TEST_F(CommandHabitsSystem, Fault2_44_EveryDocumentNamesItsSchema) {
   EXPECT_EQ(schema("pose iwf-bc --axes X=1"), "frustum/pose/1");
   EXPECT_EQ(schema("pose iwf-bc --inverse 0,0,100,0,0,1"), "frustum/pose/1");
   EXPECT_EQ(schema("errors iwf-bc"), "frustum/errors/1");
+  EXPECT_EQ(schema("parse piece/cone.nc"), "frustum/parse/1");
   EXPECT_EQ(schema("fit plane p.csv"), "frustum/fit/1");
   EXPECT_EQ(schema("volumetric iwf-bc --grid 2"), "frustum/volumetric/1");
   EXPECT_EQ(schema("check piece/cone.nc --job piece/job.toml"), "frustum/check/1");

@@ -228,6 +228,21 @@ TEST_F(ExchangeSystem, MeasuresAScanLikeAPart) {
   EXPECT_LT(doc["characteristics"][1]["value"].get<double>(), 0.25);
 }
 
+TEST_F(ExchangeSystem, DoesNotDecideOnAScanOfAnUnknownMachine) {
+  write_plan();
+  replace_in("tube.plan.toml", "title", "decision = \"iso14253\"\ntitle");
+  write("tube.stl", tube_scan());
+  const std::string mesh = "measure --plan tube.plan.toml --mesh tube.stl ";
+  const json bare = json::parse(run(mesh + "--json --export t.qif").out);
+  EXPECT_EQ(bare["status"], "uncertain");
+  EXPECT_EQ(bare["characteristics"][0]["coverage"], "not stated");
+  EXPECT_EQ(bare["evidence"]["measuring"]["accuracy"],
+            "not stated: the mesh counts as the part, and every U is 0");
+  EXPECT_NE(read(folder_ / "t.qif").find("<InspectionStatusEnum>UNKNOWN<"), std::string::npos);
+  const json stated = json::parse(run(mesh + "--json --e0 '0.1 um' --l-per-um 3000").out);
+  EXPECT_EQ(stated["status"], "pass");
+}
+
 TEST_F(ExchangeSystem, MeasuresAScanWhoseSeamsAreRounded) {
   write_plan();
   write("tube.stl", tube_scan());
@@ -280,8 +295,7 @@ TEST_F(ExchangeSystem, StatesTheAccuracyOfTheMachineThatMeasured) {
     return json::parse(outcome.out)["characteristics"][0]["expanded_uncertainty"].get<double>();
   };
   const Outcome bare = run(points);
-  EXPECT_NE(bare.out.find("nothing is known of the machine that measured these points"),
-            std::string::npos)
+  EXPECT_NE(bare.out.find("nothing is known of the machine that measured:"), std::string::npos)
       << bare.out;
   EXPECT_EQ(uncertainty(points), 0.0);
   const double stated = uncertainty(points + "--e0 '2 um' --l-per-um 300");
