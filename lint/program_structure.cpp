@@ -304,13 +304,14 @@ class Structure {
       // Each program of the file has numbers of its own.
       if (block.program) first_line.clear();
       if (!block.number || !numbers_jumped_to_.contains(*block.number)) continue;
-      const auto [known, fresh] = first_line.emplace(*block.number, block.line);
-      if (fresh) continue;
+      const auto known = first_line.emplace(*block.number, block.line);
+      if (known.second) continue;
+      const std::uint32_t first = known.first->second;
       const SourcePlace place{block.line, 1, nullptr};
       findings.raise(Check::duplicate_number, FindingList::key_of(place), place, [&] {
-        return Words{fmt::format("N{} is jumped to, and is on line {} already", *block.number,
-                                 known->second),
-                     "give the blocks numbers of their own"};
+        return Words{
+            fmt::format("N{} is jumped to, and is on line {} already", *block.number, first),
+            "give the blocks numbers of their own"};
       });
     }
   }

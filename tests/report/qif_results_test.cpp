@@ -295,8 +295,8 @@ xml_node named(const pugi::xml_document& document, const char* element, const ch
 }
 
 TEST(QifResults, HoldsTheNumbersInItsUnits) {
-  const auto& [report, plan] = measured_part();
-  const auto document = parsed(qif_results(report, plan));
+  const Case& m = measured_part();
+  const auto document = parsed(qif_results(m.report, m.plan));
   const auto measured = [&](const char* stem, const char* name) {
     const std::string kind(stem);
     const xml_node item = named(document, (kind + "Item").c_str(), "Name", name);
@@ -305,7 +305,7 @@ TEST(QifResults, HoldsTheNumbersInItsUnits) {
                  item.attribute("id").value());
   };
   const auto result = [&](const char* name) {
-    return report.measurement.characteristics.at(report.measurement.find(name).value());
+    return m.report.measurement.characteristics.at(m.report.measurement.find(name).value());
   };
   const xml_node form = measured("ConicityCharacteristic", "cone.form");
   EXPECT_DOUBLE_EQ(form.child("Value").text().as_double(), 1e-3 * result("cone.form").value);
