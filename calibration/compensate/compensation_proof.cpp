@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "calibration/compensate/leash.hpp"
 #include "calibration/compensate/pose_distance.hpp"
 #include "calibration/compensate/wanted_block.hpp"
 #include "kinematics/path/approach_direction.hpp"
@@ -24,18 +26,32 @@ using kinematics::ToolPose;
 constexpr std::size_t kTurnsBeside = 40;
 
 // The place nearest to a pose on a line of poses.
-ToolPose nearest(const ToolPose& pose, std::span<const ToolPose> line) {
-  ToolPose best = line.front();
-  double least = distance(best, pose);
+struct Foot {
+  ToolPose pose{};
+  std::size_t after = 0;  // the pose of the line that it is at or behind
+};
+
+Foot foot_on(const ToolPose& pose, std::span<const ToolPose> line) {
+  Foot best{line.front(), 0};
+  double least = distance(best.pose, pose);
   for (std::size_t k = 0; k + 1 < line.size(); ++k) {
     const ToolPose foot =
         kinematics::between(line[k], line[k + 1], share_of_way(line[k], line[k + 1], pose));
     if (const double d = distance(foot, pose); d < least) {
       least = d;
-      best = foot;
+      best = {foot, k};
     }
   }
   return best;
+}
+
+ToolPose nearest(const ToolPose& pose, std::span<const ToolPose> line) {
+  return foot_on(pose, line).pose;
+}
+
+void include(PathError& error, const PathError& other) {
+  error.tip = std::max(error.tip, other.tip);
+  error.axis = std::max(error.axis, other.axis);
 }
 
 void include(PathError& error, const ToolPose& actual, const ToolPose& wanted) {
@@ -111,6 +127,73 @@ class NominalSpans {
   std::uint32_t index_ = 0;
 };
 
+// Tip and axis of poses, each by itself.
+struct Lines {
+  std::vector<Vec3> tips{}, axes{};
+
+  void add(const ToolPose& pose) {
+    tips.push_back(pose.tip);
+    axes.push_back(pose.axis);
+  }
+};
+
+// Feed moves without an interruption, and how far off the tool is where axes turn. It may be early
+// or late there, too, but does not go back on the nominal path: tool and place are walked along
+// together, from a place beside the turns to the next one.
+class FeedRun {
+ public:
+  // The nominal poses of the next block.
+  void add_wanted(std::span<const ToolPose> poses) {
+    block_ = wanted_.size();
+    wanted_.insert(wanted_.end(), poses.begin(), poses.end());
+  }
+  // Of the actual tool in that block; its place is that nearest to it in the block.
+  void pass(const ToolPose& tool, const Foot& place, bool turning) {
+    passed_.push_back({tool, {place.pose, block_ + place.after}, turning});
+  }
+
+  [[nodiscard]] PathError at_turns() const {
+    PathError error;
+    for (std::size_t k = 0; k < passed_.size(); ++k) {
+      if (!passed_[k].turning) continue;
+      const std::size_t first = k - std::min<std::size_t>(k, 1);
+      while (k + 1 < passed_.size() && passed_[k].turning) ++k;
+      const Lines tool = tool_between(first, k), places = places_between(first, k);
+      error.tip = std::max(error.tip, leash_of_places(tool.tips, places.tips));
+      error.axis = std::max(error.axis, leash_of_directions(tool.axes, places.axes));
+    }
+    return error;
+  }
+
+ private:
+  struct Passed {
+    ToolPose tool{};
+    Foot place{};  // of the run
+    bool turning = false;
+  };
+
+  [[nodiscard]] Lines tool_between(std::size_t first, std::size_t last) const {
+    Lines lines;
+    for (std::size_t k = first; k <= last; ++k) lines.add(passed_[k].tool);
+    return lines;
+  }
+  [[nodiscard]] Lines places_between(std::size_t first, std::size_t last) const {
+    // A run begins and ends where it should, whatever turns there.
+    const Foot from = passed_[first].turning ? Foot{wanted_.front(), 0} : passed_[first].place;
+    const Foot to =
+        passed_[last].turning ? Foot{wanted_.back(), wanted_.size() - 1} : passed_[last].place;
+    Lines lines;
+    lines.add(from.pose);
+    for (std::size_t k = from.after + 1; k <= to.after; ++k) lines.add(wanted_[k]);
+    lines.add(to.pose);
+    return lines;
+  }
+
+  std::vector<ToolPose> wanted_{};
+  std::size_t block_ = 0;  // where the last one begins
+  std::vector<Passed> passed_{};
+};
+
 // The poses of one block of a path, and those from which an error jumps to the next one.
 struct ActualBlock {
   std::vector<ToolPose> poses{};
@@ -179,16 +262,23 @@ Result<CompensationProof> prove(const kinematics::Machine& machine,
     turns_before.push_back(turns.size());
   }
   CompensationProof proof;
+  FeedRun run;
   for (std::size_t k = 0; k < sources.size(); ++k) {
-    if (path.blocks[k].kind != kinematics::PathKind::feed || actual[k].poses.empty()) continue;
+    if (path.blocks[k].kind != kinematics::PathKind::feed) {
+      include(proof.at_turns, std::exchange(run, {}).at_turns());
+      continue;
+    }
+    if (actual[k].poses.empty()) continue;
+    run.add_wanted(wanted[k]);
     const std::size_t first = turns_before[k] - std::min(turns_before[k], kTurnsBeside);
     const std::size_t last = std::min(turns_before[k + 1] + kTurnsBeside, turns.size());
     for (const ToolPose& pose : actual[k].poses) {
-      const ToolPose place = nearest(pose, wanted[k]);
+      const Foot place = foot_on(pose, wanted[k]);
       const bool turning = std::any_of(turns.begin() + static_cast<std::ptrdiff_t>(first),
                                        turns.begin() + static_cast<std::ptrdiff_t>(last),
-                                       [&](const Turn& turn) { return turn.is_near(place); });
-      include(turning ? proof.at_turns : proof.beside, pose, place);
+                                       [&](const Turn& turn) { return turn.is_near(place.pose); });
+      run.pass(pose, place, turning);
+      if (!turning) include(proof.beside, pose, place.pose);
     }
     if (sources[k].turn) continue;
     for (const ToolPose& pose : wanted[k]) {
@@ -208,6 +298,7 @@ Result<CompensationProof> prove(const kinematics::Machine& machine,
       include(proof.beside, passing, pose);
     }
   }
+  include(proof.at_turns, run.at_turns());
   return proof;
 }
 

@@ -3,7 +3,8 @@
 // Model    : each block written comes from a span of a block of the program before. The actual tool
 //            is compared with the nominal path of that span, at all samples of both: nearest
 //            places, so that being early or late is no error. Where an axis turns and its error
-//            jumps, the tool is off for a moment whatever is commanded; that is a figure of its own
+//            jumps, the tool is off for a moment whatever is commanded; that is a figure of its
+//            own: the leash (leash.hpp) on which it can follow the nominal path there
 // Units    : mm, rad
 // Errors   : the program written has other blocks than its sources
 // Accuracy : the sampling bound

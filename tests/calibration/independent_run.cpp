@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "kinematics/errors/error_assignment.hpp"
 #include "kinematics/path/path_comparison.hpp"
 #include "kinematics/path/travel.hpp"
+#include "tests/calibration/frechet_distance.hpp"
 #include "trials/trial.hpp"
 
 namespace frustum::calibration {
@@ -51,6 +53,45 @@ PathError farthest(const kinematics::PathMatches& found) {
   return error;
 }
 
+// Feed moves between two interruptions.
+struct FeedLine {
+  std::vector<Vec3> tips{}, axes{};
+
+  void add(const kinematics::ToolPose& pose) {
+    tips.push_back(pose.tip);
+    axes.push_back(pose.axis);
+  }
+};
+
+std::vector<FeedLine> feed_lines(const ToolPath& path) {
+  constexpr double kTurnStep = 1e-3;  // rad: chords are 0.125 urad within great circles
+  std::vector<FeedLine> lines;
+  bool feeds = false;
+  for (const kinematics::PathSegment& segment : path.segments) {
+    const bool fed =
+        std::exchange(feeds, path.blocks[segment.block].kind == kinematics::PathKind::feed);
+    if (!feeds) continue;
+    const auto &from = path.from(segment), &to = path.to(segment);
+    if (!fed) lines.emplace_back().add(from);
+    const int parts = 1 + static_cast<int>(angle_between(from.axis, to.axis) / kTurnStep);
+    for (int k = 1; k <= parts; ++k) {
+      lines.back().add(kinematics::between(from, to, static_cast<double>(k) / parts));
+    }
+  }
+  return lines;
+}
+
+PathError walked_together(const ToolPath& wanted, const ToolPath& actual) {
+  const auto of_wanted = feed_lines(wanted), of_actual = feed_lines(actual);
+  EXPECT_EQ(of_wanted.size(), of_actual.size());
+  PathError error;
+  for (std::size_t k = 0; k < std::min(of_wanted.size(), of_actual.size()); ++k) {
+    error.tip = std::max(error.tip, frechet_distance(of_actual[k].tips, of_wanted[k].tips));
+    error.axis = std::max(error.axis, frechet_distance(of_actual[k].axes, of_wanted[k].axes));
+  }
+  return error;
+}
+
 }  // namespace
 
 GeometricErrors errors_from(const Machine& machine, const std::vector<std::string>& texts) {
@@ -81,7 +122,7 @@ IndependentRun run_independently(const Machine& machine, const GeometricErrors& 
                                  const programs::TestPiece& written) {
   const ToolPath wanted = path_of(machine, nominal, {}), actual = path_of(machine, written, errors);
   return {.nominal = farthest(kinematics::match_paths(divided(wanted, 0.1), actual)),
-          .actual = farthest(kinematics::match_paths(actual, wanted))};
+          .walked = walked_together(wanted, actual)};
 }
 
 }  // namespace frustum::calibration

@@ -26,7 +26,9 @@ namespace frustum::calibration {
 
 struct IndependentRun {
   PathError nominal{};  // of places of the nominal path at most 0.1 mm apart, to the actual one
-  PathError actual{};   // of the actual path's, to the nominal one: with the turns of axes
+  // Of both paths walked along together, forward only, with the turns of axes: the distance of
+  // Frechet of the tips' paths and that of the axes', the worst of all runs of feed moves.
+  PathError walked{};
 };
 
 [[nodiscard]] IndependentRun run_independently(const kinematics::Machine& machine,
