@@ -4,7 +4,8 @@
 // Shape    : a closed triangle mesh with outward facets and without self-contact
 // Errors   : united() and minus() give nothing where the result would not be such a mesh, or CGAL
 //            gives up
-// Accuracy : exact until the corners are rounded to double
+// Accuracy : exact until the corners are rounded to double. Vertices that are no corners are taken
+//            away after each operation, so that digits do not multiply from one to the next
 // Source   : CGAL 5.5, Polygon Mesh Processing, corefinement
 #pragma once
 

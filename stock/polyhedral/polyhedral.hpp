@@ -47,8 +47,8 @@ struct PolyhedralOptions {
   int arc_facets = 16;
   // The hulls of a turning or merged motion leave its true sweep by at most this.
   Mm tolerance = 0.01_mm;
-  // Refuse to begin what would take more hulls than this.
-  int max_pieces = 20000;
+  // Refuse to begin what would take more hulls than this: with 64 facets, about ten minutes.
+  int max_pieces = 5000;
 };
 
 // No point of the polyhedral surface is farther than this from the true one, measured normal to

@@ -373,6 +373,29 @@ TEST(PolyhedralWorkpiece, MergesStretchesOnOneStraightMotionIntoOneHull) {
   EXPECT_NEAR(many.volume(), one.volume(), 1e-9);
 }
 
+TEST(PolyhedralWorkpiece, CornersOfAnArcDoNotMultiplyTheirDigits) {
+  // A full turn there and back in 30 chords each. Where triangles of flat faces left vertices
+  // behind, every union multiplied the digits of those of the one before: it did not end.
+  std::vector<ToolPose> poses;
+  for (int i = 0; i <= 60; ++i) {
+    const double angle = 2.0 * pi * (i <= 30 ? i : 60 - i) / 30;
+    poses.push_back({Vec3(10 * std::cos(angle), 10 * std::sin(angle), 5), Vec3::UnitZ()});
+  }
+  const auto ring = polyhedral(box(40, 40, 10), path_through(poses), CutterType::flat,
+                               {.facets = 12, .tolerance = {0.01}});
+  // Between the circles around and within the true ring and its chords, the regular dodecagons of
+  // the cutter around it: the groove is at most this much wider than 4 to 16 mm.
+  const double wider = kRadius * (1.0 / std::cos(pi / 12) - 1.0) + 10 * (1.0 - std::cos(pi / 30));
+  const double removed = box(40, 40, 10).volume() - ring.volume();
+  const double inner = 10 - kRadius, outer = 10 + kRadius;
+  EXPECT_GT(
+      removed,
+      5 * pi * (std::pow(outer - 10 * (1.0 - std::cos(pi / 30)), 2) - std::pow(inner + 1e-9, 2)));
+  EXPECT_LT(removed, 5 * pi * (std::pow(outer + wider, 2) - std::pow(inner - wider, 2)));
+  // 30 chords make a few corners each; triangles left behind made thousands.
+  EXPECT_LT(ring.facet_count(), 2500U);
+}
+
 TEST(PolyhedralWorkpiece, InscribesRoundBlanks) {
   const auto blank = Blank::make(FrustumShape{20.0, 10.0, 15.0}, Vec3(1, 2, 3)).value();
   const auto faceted = polyhedral(blank, {}, CutterType::flat, {.facets = 12});
