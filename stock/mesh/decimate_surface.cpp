@@ -1,274 +1,440 @@
 #include "stock/mesh/decimate_surface.hpp"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 
-#include <OpenMesh/Tools/Decimater/DecimaterT.hh>
-#include <OpenMesh/Tools/Decimater/ModNormalFlippingT.hh>
-#include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 #include <vector>
 
-#include "stock/mesh/open_mesh.hpp"
-#include "stock/solid/facet_solid.hpp"
+#include "stock/mesh/near_triangle.hpp"
+#include "stock/mesh/quadric.hpp"
+#include "stock/mesh/surface_blocks.hpp"
+#include "stock/mesh/triangle_links.hpp"
+#include "stock/mesh/vertex_fan.hpp"
 
 namespace frustum::stock {
 namespace {
 
-// Faces that turn more than this (rad) at an edge between feature vertices make it sharp: three
-// times what extraction takes for smooth, since triangles on a bent face turn too.
-constexpr double kSharp = 0.3;
+// Faces that turn more than this (cosine of 0.3 rad) at an edge between feature vertices make it
+// sharp: three times what extraction takes for smooth, since triangles on a bent face turn too.
+constexpr double kSharpCosine = 0.955336;
 // Within the tolerance a triangle may still turn over; 20 degrees keeps wrinkles out.
-constexpr double kMostTurn = 20.0;  // degrees, as OpenMesh asks for it
-
+constexpr double kMostTurnCosine = 0.939693;
 // Of the tolerance, for the vertices taken away; what is between those vertices gets the rest.
 constexpr double kVertexShare = 0.5;
-// Of the tolerance: how far a fan that counts as flat may be off its plane. Were one point passed
-// over a million times, the tolerance would be used up.
-constexpr double kFlatShare = 1e-6;
+// Lower than this share of its longest side, a triangle is a needle: a hundred times what
+// measure() counts as degenerate.
+constexpr double kNeedle = 1e-4;
+// Collapses that cost the same take the shortest edge first: a share of the tolerance.
+constexpr double kShortFirst = 1e-3;
+// A round ends in a block when this share of its vertices is left: the blocks of the next round
+// have other borders, so that all of the surface keeps pace.
+constexpr double kLeftByRound = 0.3;
+constexpr int kMostBlockRounds = 24;
 
-Vec3 vec(const OpenMesh3::Point& p) { return {p[0], p[1], p[2]}; }
-
-// A triangle with what the distances of many points to it need.
-class NearTriangle {
+class Decimation {
  public:
-  NearTriangle(const Vec3& a, const Vec3& b, const Vec3& c)
-      : corners_{a, b, c}, normal_((b - a).cross(c - a)) {
-    const double square = normal_.squaredNorm();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 edge = corners_.at((k + 1) % 3) - corners_.at(k);
-      const double length = edge.squaredNorm();
-      edges_.at(k) = edge;
-      along_.at(k) = length > 0.0 ? Vec3(edge / length) : Vec3::Zero();
-      inward_.at(k) = normal_.cross(edge);
-    }
-    per_square_ = square > 0.0 ? 1.0 / square : 0.0;
-  }
-  // Squared; of a triangle without area, to its edges.
-  [[nodiscard]] double distance2(const Vec3& p) const {
-    bool inside = per_square_ > 0.0;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 from = p - corners_.at(k);
-      if (per_square_ > 0.0 && inward_.at(k).dot(from) >= 0.0) continue;
-      inside = false;
-      const double t = std::clamp(along_.at(k).dot(from), 0.0, 1.0);
-      nearest = std::min(nearest, (from - t * edges_.at(k)).squaredNorm());
-    }
-    if (!inside) return nearest;
-    const double height = normal_.dot(p - corners_[0]);
-    return height * height * per_square_;
-  }
+  Decimation(const SurfaceMesh& mesh, TriangleLinks links, double tolerance)
+      : mesh_(mesh),
+        given_(links),
+        links_(std::move(links)),
+        tolerance_(tolerance),
+        quadrics_(mesh.vertices.size()),
+        bound_(mesh.triangles.size(), 0.0),
+        held_(mesh.triangles.size(), kNone),
+        held_next_(mesh.vertices.size(), kNone),
+        block_(mesh.vertices.size(), kNone),
+        open_(mesh.vertices.size(), 1) {}
+
+  void run();
+  [[nodiscard]] SurfaceMesh left() const;
 
  private:
-  std::array<Vec3, 3> corners_;
-  Vec3 normal_;
-  std::array<Vec3, 3> edges_{};
-  std::array<Vec3, 3> along_{};   // edges over their squared lengths
-  std::array<Vec3, 3> inward_{};  // across them, in the plane
-  double per_square_ = 0.0;
+  static constexpr std::uint32_t kNone = TriangleLinks::kGone;
+  // The next collapses of one block.
+  struct Turn {
+    double cost;
+    std::uint32_t vertex;
+    // The cheapest on top; among equals the vertex decides.
+    bool operator<(const Turn& other) const {
+      return cost != other.cost ? cost > other.cost : vertex > other.vertex;
+    }
+  };
+  struct Target {
+    double cost;
+    std::size_t spoke;
+  };
+  // A vertex that a fan stands for, and the place of a triangle that is near it.
+  struct Held {
+    std::uint32_t vertex;
+    std::uint32_t place;
+    Vec3 seen;
+  };
+  // What a collapse leaves of a fan: the triangles that stay, by their place in the fan.
+  struct Rest {
+    std::size_t target = 0;
+    double given_bound = 0.0;  // of the triangles before
+    double bound = 0.0;
+    bool is_proven = false;  // the bound is true
+    std::vector<std::uint32_t> places{};
+    std::vector<NearTriangle> triangles{};
+    std::vector<Vec3> slopes{};  // of their heights, seen from above
+    bool is_gathered = false;    // the points of this fan
+    std::vector<Held> points{};
+  };
+
+  [[nodiscard]] const Vec3& point(std::uint32_t v) const { return mesh_.vertices[v]; }
+  [[nodiscard]] bool is_feature(std::uint32_t v) const {
+    return !mesh_.kinds.empty() && mesh_.kinds[v] == VertexKind::feature;
+  }
+  [[nodiscard]] Vec3 area_of(std::uint32_t t) const {
+    const auto& [a, b, c] = links_.triangles[t];
+    return (point(b) - point(a)).cross(point(c) - point(a));
+  }
+  void make_quadrics();
+  [[nodiscard]] std::size_t work(std::span<const std::uint32_t> block, std::uint32_t number);
+  [[nodiscard]] bool is_inner(std::uint32_t vertex, std::uint32_t number) const;
+  [[nodiscard]] double cost(std::uint32_t from, std::uint32_t to) const;
+  [[nodiscard]] double least_cost(std::uint32_t vertex) const;
+  [[nodiscard]] bool may_take(const VertexFan& fan, std::size_t spoke) const;
+  [[nodiscard]] bool keeps_shape(const VertexFan& fan, std::size_t target) const;
+  [[nodiscard]] bool is_held(const VertexFan& fan, Rest& rest) const;
+  [[nodiscard]] bool is_near_given(const VertexFan& fan, const Rest& rest) const;
+  [[nodiscard]] bool is_near_given(const Vec3& at, std::uint32_t start) const;
+  void gather(const VertexFan& fan, Rest& rest) const;
+  [[nodiscard]] bool is_legal(const VertexFan& fan, std::size_t target, Rest& rest) const;
+  void collapse(const VertexFan& fan, const Rest& rest);
+
+  const SurfaceMesh& mesh_;
+  const TriangleLinks given_;
+  TriangleLinks links_;
+  double tolerance_;
+  std::vector<Quadric> quadrics_;
+  // By triangle: it and what it stands for of the given mesh are nowhere farther apart.
+  std::vector<double> bound_;
+  std::vector<std::uint32_t> held_;  // by triangle: the first vertex taken away that is near it
+  std::vector<std::uint32_t> held_next_;  // by vertex taken away: the next on the same triangle
+  std::vector<std::uint32_t> block_;      // by vertex, in this round
+  // By vertex. 0: stays, unless what is around it changes; 1: has its turn; 2: that is out of date.
+  std::vector<std::uint8_t> open_;
 };
+
+void Decimation::make_quadrics() {
+  tbb::parallel_for(std::size_t{0}, mesh_.vertices.size(), [&](std::size_t v) {
+    Quadric& sum = quadrics_[v];
+    links_.for_each_leaving(static_cast<std::uint32_t>(v), [&](std::uint32_t half) {
+      const Vec3 area = area_of(half / 3);
+      const double length = area.norm();
+      if (!(length > 0.0)) return;
+      const Vec3 normal = area / length;
+      sum.add_plane(normal, -normal.dot(mesh_.vertices[v]), 0.5 * length);
+    });
+  });
+}
+
+bool Decimation::is_inner(std::uint32_t vertex, std::uint32_t number) const {
+  bool inner = true;
+  links_.for_each_leaving(
+      vertex, [&](std::uint32_t half) { inner = inner && block_[links_.to(half)] == number; });
+  return inner;
+}
+
+double Decimation::cost(std::uint32_t from, std::uint32_t to) const {
+  const double share = kShortFirst * tolerance_;
+  return quadrics_[from].at(point(to)) + quadrics_[to].at(point(to)) +
+         share * share * (point(to) - point(from)).squaredNorm();
+}
+
+double Decimation::least_cost(std::uint32_t vertex) const {
+  double least = std::numeric_limits<double>::infinity();
+  links_.for_each_leaving(
+      vertex, [&](std::uint32_t half) { least = std::min(least, cost(vertex, links_.to(half))); });
+  return least;
+}
 
 // Corners stay, and sharp edges are only shortened along themselves.
-template <typename Mesh>
-class KeepFeatures : public OpenMesh::Decimater::ModBaseT<Mesh> {
-  using Base = OpenMesh::Decimater::ModBaseT<Mesh>;
-  using Info = OpenMesh::Decimater::CollapseInfoT<Mesh>;
-
- public:
-  using Handle = OpenMesh::Decimater::ModHandleT<KeepFeatures>;
-  explicit KeepFeatures(Mesh& mesh) : Base(mesh, true) {}
-  const std::string& name() const override {
-    static const std::string kName = "KeepFeatures";
-    return kName;
+bool Decimation::may_take(const VertexFan& fan, std::size_t spoke) const {
+  if (!is_feature(fan.vertex)) return true;
+  if (!is_feature(fan.spoke[spoke])) return false;
+  int sharp = 0;
+  bool along = false;
+  for (std::size_t i = 0; i < fan.size; ++i) {
+    if (!is_feature(fan.spoke[i])) continue;
+    const Vec3& left = fan.normal[i];
+    const Vec3& right = fan.normal[i == 0 ? fan.size - 1 : i - 1];
+    if (left.dot(right) > kSharpCosine * left.norm() * right.norm()) continue;
+    ++sharp;
+    along = along || i == spoke;
   }
-  void set_kinds(const std::vector<VertexKind>& kinds) { kinds_ = &kinds; }
+  return along && sharp == 2;
+}
 
-  float collapse_priority(const Info& info) override {
-    if (!is_feature(info.v0)) return Base::LEGAL_COLLAPSE;
-    if (!is_feature(info.v1)) return Base::ILLEGAL_COLLAPSE;
-    int sharp = 0;
-    bool along = false;
-    for (const auto half : Base::mesh().voh_range(info.v0)) {
-      if (!is_sharp(half)) continue;
-      ++sharp;
-      along = along || Base::mesh().to_vertex_handle(half) == info.v1;
+bool Decimation::keeps_shape(const VertexFan& fan, std::size_t target) const {
+  const Vec3& to = point(fan.spoke[target]);
+  for (std::size_t i = fan.after(target); fan.after(i) != target; i = fan.after(i)) {
+    const Vec3 a = point(fan.spoke[i]) - to;
+    const Vec3 b = point(fan.spoke[fan.after(i)]) - to;
+    const Vec3 normal = a.cross(b);
+    const double longest = std::max({a.squaredNorm(), b.squaredNorm(), (a - b).squaredNorm()});
+    const double square = normal.squaredNorm();
+    if (!(square > kNeedle * kNeedle * longest * longest)) return false;
+    const double along = normal.dot(fan.normal[i]);
+    if (!(along > 0.0 && along * along >= kMostTurnCosine * kMostTurnCosine * square *
+                                              fan.normal[i].squaredNorm())) {
+      return false;
     }
-    return along && sharp == 2 ? Base::LEGAL_COLLAPSE : Base::ILLEGAL_COLLAPSE;
   }
+  return true;
+}
 
- private:
-  [[nodiscard]] bool is_feature(typename Mesh::VertexHandle v) const {
-    return (*kinds_)[static_cast<std::size_t>(v.idx())] == VertexKind::feature;
-  }
-  bool is_sharp(typename Mesh::HalfedgeHandle half) {
-    Mesh& mesh = Base::mesh();
-    if (!is_feature(mesh.to_vertex_handle(half))) return false;
-    return std::abs(mesh.calc_dihedral_angle(half)) > kSharp;
-  }
-
-  const std::vector<VertexKind>* kinds_ = nullptr;
-};
-
-// Every vertex that has been taken away stays within the tolerance of a triangle. Each is kept with
-// the triangle that it is nearest to, as by OpenMesh's Hausdorff module, whose time grows with the
-// square of what lies on a flat face: there a collapse moves nothing, and nothing is looked at.
-template <typename Mesh>
-class HoldRemoved : public OpenMesh::Decimater::ModBaseT<Mesh> {
-  using Base = OpenMesh::Decimater::ModBaseT<Mesh>;
-  using Info = OpenMesh::Decimater::CollapseInfoT<Mesh>;
-  using Face = typename Mesh::FaceHandle;
-
- public:
-  using Handle = OpenMesh::Decimater::ModHandleT<HoldRemoved>;
-  explicit HoldRemoved(Mesh& mesh) : Base(mesh, true), held_(mesh.n_faces()) {}
-  const std::string& name() const override {
-    static const std::string kName = "HoldRemoved";
-    return kName;
-  }
-  void set_tolerance(double tolerance) { tolerance_ = tolerance; }
-
-  float collapse_priority(const Info& info) override {
-    if (is_flat(info)) return Base::LEGAL_COLLAPSE;  // unless a triangle turns over
-    left_.clear();
-    for (const auto face : Base::mesh().vf_range(info.v0)) {
-      if (face != info.fl && face != info.fr) left_.push_back(after(info, face));
+// Every vertex that the fan stands for is within its share of a triangle that stays.
+bool Decimation::is_held(const VertexFan& fan, Rest& rest) const {
+  constexpr auto kNowhere = static_cast<std::uint32_t>(-1);
+  const double share = kVertexShare * tolerance_;
+  const auto count = static_cast<std::uint32_t>(rest.places.size());
+  for (std::size_t k = 0; k < rest.points.size(); ++k) {
+    Held& held = rest.points[k];
+    if (rest.is_proven) {
+      held.place = fan.sector(rest.target, held.seen);
+      const Vec3& from = fan.seen[rest.target];
+      const Vec3& slope = rest.slopes[held.place];
+      const double height = from.z() + slope.x() * (held.seen.x() - from.x()) +
+                            slope.y() * (held.seen.y() - from.y());
+      if (std::abs(held.seen.z() - height) <= share) continue;
     }
-    if (!is_held(vec(info.p0), 0)) return Base::ILLEGAL_COLLAPSE;
-    std::size_t own = 0;  // what lay on a triangle lies most often on what becomes of it
-    for (const auto face : Base::mesh().vf_range(info.v0)) {
-      for (const Vec3& point : held(face)) {
-        if (!is_held(point, own)) return Base::ILLEGAL_COLLAPSE;
-      }
-      if (face != info.fl && face != info.fr) own = (own + 1) % left_.size();
+    std::uint32_t found = kNowhere;
+    for (std::uint32_t i = 0; i < count && found == kNowhere; ++i) {
+      if (rest.triangles[i].distance2(point(held.vertex)) <= share * share) found = i;
     }
-    return Base::LEGAL_COLLAPSE;
+    if (found == kNowhere) {
+      // What does not fit here does not fit the next target either, as a rule.
+      std::swap(rest.points[k], rest.points.front());
+      return false;
+    }
+    held.place = found;
   }
+  return true;
+}
 
-  void preprocess_collapse(const Info& info) override {
-    faces_.clear();
-    left_.clear();
-    loose_.assign(1, vec(info.p0));
-    for (const auto face : Base::mesh().vf_range(info.v0)) {
-      loose_.insert(loose_.end(), held(face).begin(), held(face).end());
-      held(face).clear();
-      if (face == info.fl || face == info.fr) continue;
-      faces_.push_back(face);
-      left_.push_back(after(info, face));
-    }
-    for (const Vec3& point : loose_) held(faces_.at(nearest_to(point))).push_back(point);
+// From a vertex of the given mesh to the one next to the point, and what is around that.
+bool Decimation::is_near_given(const Vec3& at, std::uint32_t start) const {
+  const double most = tolerance_ * tolerance_;
+  std::uint32_t here = start;
+  double least = (point(here) - at).squaredNorm();
+  for (bool moved = true; moved;) {
+    moved = false;
+    given_.for_each_leaving(here, [&, centre = here](std::uint32_t half) {
+      const std::uint32_t to = given_.to(half);
+      const double distance = (point(to) - at).squaredNorm();
+      if (to == centre || distance >= least) return;
+      least = distance;
+      here = to;
+      moved = true;
+    });
   }
+  if (least <= most) return true;
+  bool found = false;
+  given_.for_each_leaving(here, [&](std::uint32_t half) {
+    if (found) return;
+    const auto& [a, b, c] = given_.triangles[half / 3];
+    found = NearTriangle(point(a), point(b), point(c)).distance2(at) <= most;
+  });
+  return found;
+}
 
- private:
-  std::vector<Vec3>& held(Face face) { return held_[static_cast<std::size_t>(face.idx())]; }
-
-  [[nodiscard]] NearTriangle after(const Info& info, Face face) {
-    std::array<Vec3, 3> corners;
-    std::size_t corner = 0;
-    for (const auto v : Base::mesh().fv_range(face)) {
-      corners.at(corner++) = vec(v == info.v0 ? info.p1 : Base::mesh().point(v));
+bool Decimation::is_near_given(const VertexFan& fan, const Rest& rest) const {
+  const std::uint32_t to = fan.spoke[rest.target];
+  for (std::uint32_t k = 0; k < rest.places.size(); ++k) {
+    const std::size_t i = rest.places[k];
+    const std::uint32_t a = fan.spoke[i];
+    const std::uint32_t b = fan.spoke[fan.after(i)];
+    const Vec3 centre = (point(to) + point(a) + point(b)) / 3.0;
+    std::uint32_t start = to;
+    double least = (point(to) - centre).squaredNorm();
+    const auto offer = [&](std::uint32_t vertex) {
+      const double distance = (point(vertex) - centre).squaredNorm();
+      if (distance >= least) return;
+      least = distance;
+      start = vertex;
+    };
+    offer(a);
+    offer(b);
+    for (const Held& held : rest.points) {
+      if (held.place == k) offer(held.vertex);
     }
-    return {corners[0], corners[1], corners[2]};
+    if (!is_near_given(centre, start)) return false;
   }
-  [[nodiscard]] bool is_flat(const Info& info) {
-    const Vec3 p0 = vec(info.p0);
-    const Vec3 normal = vec(Base::mesh().calc_face_normal(*Base::mesh().cvf_iter(info.v0)));
-    for (const auto v : Base::mesh().vv_range(info.v0)) {
-      const double height = normal.dot(vec(Base::mesh().point(v)) - p0);
-      if (!(std::abs(height) < kFlatShare * tolerance_)) return false;
-    }
+  return true;
+}
+
+// What the fan stands for, as it is seen from above.
+void Decimation::gather(const VertexFan& fan, Rest& rest) const {
+  rest.points.clear();
+  rest.is_gathered = true;
+  const Vec3& centre = point(fan.vertex);
+  const auto add = [&](std::uint32_t vertex) {
+    const Vec3 arm = point(vertex) - centre;
+    rest.points.push_back({vertex, 0, {arm.dot(fan.x), arm.dot(fan.y), arm.dot(fan.up)}});
+  };
+  add(fan.vertex);
+  for (std::size_t i = 0; i < fan.size; ++i) {
+    for (std::uint32_t v = held_[fan.half[i] / 3]; v != kNone; v = held_next_[v]) add(v);
+  }
+}
+
+bool Decimation::is_legal(const VertexFan& fan, std::size_t target, Rest& rest) const {
+  if (!may_take(fan, target) || !keeps_shape(fan, target)) return false;
+  if (fan.size + links_.valence(fan.spoke[target]) > VertexFan::kMostSpokes + 4 ||
+      !links_.may_collapse(fan.half[target])) {
+    return false;
+  }
+  rest.target = target;
+  const double apart = fan.departure(target);
+  rest.bound = rest.given_bound + apart;
+  rest.is_proven = std::isfinite(apart);
+  rest.places.clear();
+  for (std::size_t i = fan.after(target); fan.after(i) != target; i = fan.after(i)) {
+    rest.places.push_back(static_cast<std::uint32_t>(i));
+  }
+  if (!rest.is_gathered) gather(fan, rest);
+  if (rest.bound <= kVertexShare * tolerance_) {
+    for (Held& held : rest.points) held.place = fan.sector(target, held.seen);
     return true;
   }
-  [[nodiscard]] bool is_held(const Vec3& point, std::size_t own) const {
-    const double most = tolerance_ * tolerance_;
-    if (left_[own].distance2(point) <= most) return true;
-    return std::ranges::any_of(
-        left_, [&](const NearTriangle& triangle) { return triangle.distance2(point) <= most; });
+  rest.triangles.clear();
+  rest.slopes.clear();
+  const Vec3& to = fan.seen[target];
+  for (const std::uint32_t i : rest.places) {
+    rest.triangles.emplace_back(point(fan.spoke[target]), point(fan.spoke[i]),
+                                point(fan.spoke[fan.after(i)]));
+    const Vec3 normal = (fan.seen[i] - to).cross(fan.seen[fan.after(i)] - to);
+    rest.slopes.emplace_back(-normal.x() / normal.z(), -normal.y() / normal.z(), 0.0);
   }
-  [[nodiscard]] std::size_t nearest_to(const Vec3& point) const {
-    constexpr double kOn = 1e-24;  // mm2
-    std::size_t nearest = 0;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < left_.size() && least > kOn; ++i) {
-      const double distance = left_[i].distance2(point);
-      if (distance >= least) continue;
-      least = distance;
-      nearest = i;
-    }
-    return nearest;
+  return is_held(fan, rest) && is_near_given(fan, rest);
+}
+
+void Decimation::collapse(const VertexFan& fan, const Rest& rest) {
+  const std::uint32_t to = fan.spoke[rest.target];
+  for (std::size_t i = 0; i < fan.size; ++i) held_[fan.half[i] / 3] = kNone;
+  for (const Held& held : rest.points) {
+    const std::uint32_t triangle = fan.half[rest.places[held.place]] / 3;
+    held_next_[held.vertex] = held_[triangle];
+    held_[triangle] = held.vertex;
   }
+  for (const std::uint32_t i : rest.places) bound_[fan.half[i] / 3] = rest.bound;
+  links_.collapse(fan.half[rest.target]);
+  quadrics_[to].add(quadrics_[fan.vertex]);
+}
 
-  double tolerance_ = 0.0;
-  std::vector<std::vector<Vec3>> held_;  // by triangle: vertices taken away that it is nearest to
-  // Of the collapse that is looked at: the triangles that it leaves, and what lay on all of them.
-  std::vector<NearTriangle> left_{};
-  std::vector<Face> faces_{};
-  std::vector<Vec3> loose_{};
-};
-
-// The centres of the triangles that a collapse leaves stay within the tolerance of the given mesh.
-template <typename Mesh>
-class StayNear : public OpenMesh::Decimater::ModBaseT<Mesh> {
-  using Base = OpenMesh::Decimater::ModBaseT<Mesh>;
-  using Info = OpenMesh::Decimater::CollapseInfoT<Mesh>;
-
- public:
-  using Handle = OpenMesh::Decimater::ModHandleT<StayNear>;
-  explicit StayNear(Mesh& mesh) : Base(mesh, true) {}
-  const std::string& name() const override {
-    static const std::string kName = "StayNear";
-    return kName;
+// Collapses within a block, cheapest first; how many.
+std::size_t Decimation::work(std::span<const std::uint32_t> block, std::uint32_t number) {
+  std::vector<Turn> turns;
+  for (const std::uint32_t v : block) {
+    if (open_[v] != 0 && is_inner(v, number)) turns.push_back({least_cost(v), v});
   }
-  void set_given(const FacetSolid& given, double tolerance) {
-    given_ = &given;
-    tolerance_ = tolerance;
-  }
-
-  float collapse_priority(const Info& info) override {
-    Mesh& mesh = Base::mesh();
-    for (const auto face : mesh.vf_range(info.v0)) {
-      if (face == info.fl || face == info.fr) continue;
-      Vec3 sum = Vec3::Zero();
-      for (const auto v : mesh.fv_range(face)) {
-        const auto& p = v == info.v0 ? info.p1 : mesh.point(v);
-        sum += Vec3(p[0], p[1], p[2]);
+  std::make_heap(turns.begin(), turns.end());
+  const auto most = static_cast<std::size_t>(
+      (1.0 - kLeftByRound) * static_cast<double>(std::max<std::size_t>(block.size(), 64)));
+  VertexFan fan;
+  Rest rest;
+  std::array<Target, VertexFan::kMostSpokes> targets;
+  std::size_t done = 0;
+  while (!turns.empty() && done < most) {
+    const Turn turn = turns.front();
+    std::pop_heap(turns.begin(), turns.end());
+    turns.pop_back();
+    if (links_.leaving[turn.vertex] == kNone || open_[turn.vertex] == 0) continue;
+    if (open_[turn.vertex] == 2) {
+      open_[turn.vertex] = 1;
+      const double now = least_cost(turn.vertex);
+      if (!turns.empty() && now > turns.front().cost) {
+        turns.push_back({now, turn.vertex});
+        std::push_heap(turns.begin(), turns.end());
+        continue;
       }
-      if (!given_->is_within(sum / 3.0, tolerance_)) return Base::ILLEGAL_COLLAPSE;
     }
-    return Base::LEGAL_COLLAPSE;
+    open_[turn.vertex] = 0;
+    if (!fan.look(mesh_.vertices, links_, turn.vertex)) continue;
+    double bound = 0.0;
+    for (std::size_t i = 0; i < fan.size; ++i) bound = std::max(bound, bound_[fan.half[i] / 3]);
+    rest.given_bound = bound;
+    for (std::size_t i = 0; i < fan.size; ++i) {
+      targets[i] = {cost(fan.vertex, fan.spoke[i]), i};
+    }
+    std::sort(targets.begin(), targets.begin() + static_cast<std::ptrdiff_t>(fan.size),
+              [](const Target& a, const Target& b) {
+                return a.cost != b.cost ? a.cost < b.cost : a.spoke < b.spoke;
+              });
+    rest.is_gathered = false;
+    for (std::size_t k = 0; k < fan.size; ++k) {
+      if (!is_legal(fan, targets[k].spoke, rest)) continue;
+      collapse(fan, rest);
+      ++done;
+      for (std::size_t i = 0; i < fan.size; ++i) {
+        const std::uint32_t v = fan.spoke[i];
+        const bool waits = open_[v] != 0;
+        open_[v] = 2;
+        if (waits || !is_inner(v, number)) continue;
+        turns.push_back({least_cost(v), v});
+        std::push_heap(turns.begin(), turns.end());
+        open_[v] = 1;
+      }
+      break;
+    }
   }
+  return done;
+}
 
- private:
-  const FacetSolid* given_ = nullptr;
-  double tolerance_ = 0.0;
-};
+void Decimation::run() {
+  make_quadrics();
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
+    if (links_.leaving[v] != kNone) order.push_back(v);
+  }
+  int idle = 0;
+  for (int round = 0; round < kMostBlockRounds && idle < 2; ++round) {
+    const std::vector<SurfaceBlock> blocks = surface_blocks(mesh_.vertices, order, round);
+    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+      for (std::size_t k = blocks[b].first; k < blocks[b].last; ++k) {
+        block_[order[k]] = static_cast<std::uint32_t>(b);
+      }
+    });
+    std::vector<std::size_t> done(blocks.size(), 0);
+    tbb::parallel_for(
+        std::size_t{0}, blocks.size(),
+        [&](std::size_t b) {
+          const std::span all(order);
+          done[b] = work(all.subspan(blocks[b].first, blocks[b].last - blocks[b].first),
+                         static_cast<std::uint32_t>(b));
+        },
+        tbb::simple_partitioner());
+    const std::size_t taken = std::accumulate(done.begin(), done.end(), std::size_t{0});
+    // What a hundredth would still gain is not worth a round.
+    idle = 100 * taken < order.size() ? idle + 1 : 0;
+    std::erase_if(order, [&](std::uint32_t v) { return links_.leaving[v] == kNone; });
+  }
+}
 
-SurfaceMesh kept(const SurfaceMesh& from, const OpenMesh3& mesh) {
-  constexpr auto kGone = std::numeric_limits<std::uint32_t>::max();
+SurfaceMesh Decimation::left() const {
   SurfaceMesh left;
-  std::vector<std::uint32_t> number(from.vertices.size(), kGone);
-  const auto keep = [&](std::size_t v) {
-    if (number[v] != kGone) return;
+  std::vector<std::uint32_t> number(mesh_.vertices.size(), kNone);
+  for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
+    if (links_.leaving[v] == kNone) continue;
     number[v] = static_cast<std::uint32_t>(left.vertices.size());
-    left.vertices.push_back(from.vertices[v]);
-    if (!from.normals.empty()) left.normals.push_back(from.normals[v]);
-    if (!from.kinds.empty()) left.kinds.push_back(from.kinds[v]);
-    if (!from.deviation.empty()) left.deviation.push_back(from.deviation[v]);
-  };
-  for (std::size_t v = 0; v < from.vertices.size(); ++v) {
-    if (!mesh.status(mesh.vertex_handle(static_cast<unsigned>(v))).deleted()) keep(v);
+    left.vertices.push_back(mesh_.vertices[v]);
+    if (!mesh_.normals.empty()) left.normals.push_back(mesh_.normals[v]);
+    if (!mesh_.kinds.empty()) left.kinds.push_back(mesh_.kinds[v]);
+    if (!mesh_.deviation.empty()) left.deviation.push_back(mesh_.deviation[v]);
   }
-  for (std::size_t f = 0; f < mesh.n_faces(); ++f) {
-    const auto face = mesh.face_handle(static_cast<unsigned>(f));
-    if (mesh.status(face).deleted()) continue;
-    std::array<std::uint32_t, 3> corners{};
-    std::size_t corner = 0;
-    for (const auto v : mesh.fv_range(face)) {
-      corners.at(corner++) = number[static_cast<std::size_t>(v.idx())];
-    }
-    left.triangles.push_back(corners);
+  for (std::uint32_t t = 0; t < links_.triangles.size(); ++t) {
+    if (links_.is_gone(t)) continue;
+    const auto& [a, b, c] = links_.triangles[t];
+    left.triangles.push_back({number[a], number[b], number[c]});
   }
   return left;
 }
@@ -281,42 +447,17 @@ Result<SurfaceMesh> decimate_surface(const SurfaceMesh& mesh, Mm tolerance) {
                  fmt::format("the decimation tolerance is {} mm", tolerance.value),
                  "it must be a finite number above 0");
   }
-  const MeshMeasure measured = measure(mesh);
-  if (!measured.is_closed || !measured.is_manifold) {
-    return error("mesh-open"_id,
-                 fmt::format("the mesh to be decimated is {}",
-                             measured.is_closed ? "not manifold" : "not closed"),
-                 "only closed surfaces without self-contact are decimated");
+  auto links = linked(mesh.triangles, mesh.vertices.size());
+  if (!links) {
+    const bool is_closed = measure(mesh).is_closed;
+    return error(
+        "mesh-open"_id,
+        fmt::format("the mesh to be decimated is {}", is_closed ? "not manifold" : "not closed"),
+        "only closed surfaces without self-contact are decimated");
   }
-  OpenMesh3 built = open_mesh_of(mesh);
-  built.request_face_normals();
-  built.update_face_normals();
-  const std::vector<VertexKind> kinds =
-      mesh.kinds.size() == mesh.vertices.size()
-          ? mesh.kinds
-          : std::vector<VertexKind>(mesh.vertices.size(), VertexKind::surface);
-
-  OpenMesh::Decimater::DecimaterT<OpenMesh3> decimater(built);
-  OpenMesh::Decimater::ModQuadricT<OpenMesh3>::Handle quadric;
-  HoldRemoved<OpenMesh3>::Handle removed;
-  OpenMesh::Decimater::ModNormalFlippingT<OpenMesh3>::Handle flipping;
-  KeepFeatures<OpenMesh3>::Handle features;
-  StayNear<OpenMesh3>::Handle near;
-  decimater.add(quadric);
-  decimater.add(features);
-  decimater.add(flipping);
-  decimater.add(removed);
-  decimater.add(near);
-  decimater.module(quadric).unset_max_err();
-  decimater.module(removed).set_tolerance(kVertexShare * tolerance.value);
-  decimater.module(flipping).set_max_normal_deviation(kMostTurn);
-  decimater.module(features).set_kinds(kinds);
-  const FacetSolid given(mesh.vertices, mesh.triangles);
-  decimater.module(near).set_given(given, tolerance.value);
-  if (!decimater.initialize())
-    return error("mesh-decimation"_id, "OpenMesh cannot decimate the mesh");
-  decimater.decimate();
-  return kept(mesh, built);
+  Decimation decimation(mesh, *std::move(links), tolerance.value);
+  decimation.run();
+  return decimation.left();
 }
 
 }  // namespace frustum::stock

@@ -266,12 +266,62 @@ TEST(DecimateSurface, StaysWithinTheToleranceAndKeepsEdges) {
   }
 }
 
+TEST(DecimateSurface, HasTheSameBitsForAnyNumberOfThreads) {
+  // 180 thousand triangles: a hundred blocks.
+  const SurfaceMesh fine =
+      extract_surface(torus(), box_around(Vec3::Zero(), 7.5), Mm{0.15}).value();
+  const auto with = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return decimate_surface(fine, Mm{0.02}).value();
+  };
+  const SurfaceMesh one = with(1);
+  expect_sound(one);
+  EXPECT_LT(8 * one.triangles.size(), fine.triangles.size());
+  EXPECT_LT(worst_distance(one, torus_distance), 0.02 + worst_distance(fine, torus_distance));
+  for (const std::size_t threads : {2U, 8U}) {
+    const SurfaceMesh many = with(threads);
+    EXPECT_EQ(many.vertices, one.vertices);
+    EXPECT_EQ(many.triangles, one.triangles);
+  }
+}
+
+TEST(DecimateSurface, TurnsNoTriangleOver) {
+  for (const Shape& shape : shapes()) {
+    SCOPED_TRACE(shape.name);
+    const BoundingBox box = box_around(Vec3::Zero(), shape.half);
+    const SurfaceMesh fine = extract_surface(shape.solid, box, Mm{0.2}).value();
+    const auto fewer = decimate_surface(fine, Mm{0.1});
+    ASSERT_TRUE(fewer.has_value());
+    std::size_t against = 0;
+    for (const auto& corners : fewer->triangles) {
+      const Vec3 area = (fewer->vertices[corners[1]] - fewer->vertices[corners[0]])
+                            .cross(fewer->vertices[corners[2]] - fewer->vertices[corners[0]]);
+      for (const std::uint32_t v : corners) {
+        if (fewer->kinds[v] == VertexKind::surface && area.dot(fewer->normals[v]) <= 0.0) ++against;
+      }
+    }
+    EXPECT_EQ(against, 0U);
+  }
+}
+
+TEST(DecimateSurface, RefusesTwoSolidsThatShareAnEdge) {
+  SurfaceMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
+  for (const auto& [a, b] : {std::array{2U, 3U}, std::array{4U, 5U}}) {
+    for (const std::array<std::uint32_t, 3>& t : {std::array{0U, 1U, a}, std::array{1U, 0U, b},
+                                                  std::array{1U, b, a}, std::array{0U, a, b}}) {
+      mesh.triangles.push_back(t);
+    }
+  }
+  EXPECT_THAT(decimate_surface(mesh, Mm{0.1}).error().front().message, HasSubstr("not manifold"));
+}
+
 TEST(DecimateSurface, LeavesFewTrianglesOfABox) {
   const Solid solid{{Body{BoxBody{Vec3(3, 2, 1)}, Pose::rotated(rotation_x(0.3))}}};
   const SurfaceMesh fine = extract_surface(solid, box_around(Vec3::Zero(), 4.0), Mm{0.25}).value();
   const auto fewer = decimate_surface(fine, Mm{0.001});
   ASSERT_TRUE(fewer.has_value());
-  EXPECT_LE(fewer->triangles.size(), 60U);  // 12 are the least
+  EXPECT_EQ(fewer->triangles.size(), 12U);
   EXPECT_NEAR(measure(*fewer).volume, 48.0, 1e-9);
 }
 
