@@ -9,6 +9,7 @@
 #include "stock/mesh/surface_mesh_cells.hpp"
 #include "stock/mesh/surface_mesh_crossings.hpp"
 #include "stock/mesh/surface_mesh_vertex.hpp"
+#include "stock/mesh/unfold_surface.hpp"
 
 namespace frustum::stock {
 namespace {
@@ -245,6 +246,7 @@ SurfaceMesh extract_surface(SolidView solid, const TriDexel& dexels) {
   SurfaceMesh mesh;
   VertexPlacer(solid, crossings, cells, mesh).place_all();
   connect(crossings, cells, mesh);
+  unfold_surface(mesh);
   return mesh;
 }
 

@@ -3,7 +3,8 @@
 // Model    : dual contouring of a tri-dexel sample. A cell whose corners are not all on one side
 //            gets one vertex for each piece of surface in it; every grid edge that crosses the
 //            surface becomes a quad of the four cells around it, split in two triangles. Watertight
-//            and 2-manifold by construction, whatever the solid.
+//            and 2-manifold by construction, whatever the solid. What is folded over at the edges
+//            of thin walls is mended (stock/mesh/unfold_surface.hpp)
 // Units    : mm; frame: that of the solid
 // Shape    : triangles run counter-clockwise seen from outside; all per-vertex arrays are as long
 //            as `vertices` (`deviation` may be empty)

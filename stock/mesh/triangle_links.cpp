@@ -39,6 +39,38 @@ void TriangleLinks::collapse(std::uint32_t half) {
   leaving[goes] = kGone;
 }
 
+bool TriangleLinks::may_flip(std::uint32_t half) const {
+  const std::uint32_t left = from(before(half));
+  const std::uint32_t right = from(before(across[half]));
+  bool apart = left != right;
+  for_each_leaving(left, [&](std::uint32_t mine) { apart = apart && to(mine) != right; });
+  return apart && valence(from(half)) > 3 && valence(to(half)) > 3;
+}
+
+void TriangleLinks::flip(std::uint32_t half) {
+  const std::uint32_t back = across[half];
+  const std::uint32_t a = from(half), b = to(half);
+  const std::uint32_t left = from(before(half)), right = from(before(back));
+  const std::array outer{across[next(back)], across[before(half)], across[before(back)],
+                         across[next(half)]};
+  const std::uint32_t one = half / 3, two = back / 3;
+  triangles[one] = {a, right, left};
+  triangles[two] = {right, b, left};
+  const auto join = [&](std::uint32_t mine, std::uint32_t other) {
+    across[mine] = other;
+    across[other] = mine;
+  };
+  join(3 * one, outer[0]);
+  join(3 * one + 2, outer[1]);
+  join(3 * two, outer[2]);
+  join(3 * two + 1, outer[3]);
+  join(3 * one + 1, 3 * two + 2);
+  leaving[a] = 3 * one;
+  leaving[right] = 3 * one + 1;
+  leaving[left] = 3 * one + 2;
+  leaving[b] = 3 * two + 1;
+}
+
 std::optional<TriangleLinks> linked(std::vector<std::array<std::uint32_t, 3>> triangles,
                                     std::size_t vertex_count) {
   TriangleLinks links;

@@ -2,7 +2,8 @@
 //
 // Model    : half-edge 3 t + k runs from corner k of triangle t to its next corner; across it is
 //            the half-edge that runs back. collapse() moves the start of a half-edge to its end:
-//            the vertex and two triangles are gone, and the numbers of all others stay
+//            the vertex and two triangles are gone, and the numbers of all others stay. flip()
+//            exchanges the diagonal of two triangles; half-edges of these two get other numbers
 // Shape    : triangles counter-clockwise seen from outside; of one that is gone, all corners are
 //            kGone
 // Errors   : linked() gives nothing for a mesh that is not closed and 2-manifold, or names a vertex
@@ -61,6 +62,9 @@ struct TriangleLinks {
   [[nodiscard]] bool may_collapse(std::uint32_t half) const;
   // Precondition: may_collapse().
   void collapse(std::uint32_t half);
+  // The other diagonal of the two triangles at an edge; likewise.
+  [[nodiscard]] bool may_flip(std::uint32_t half) const;
+  void flip(std::uint32_t half);
 };
 
 [[nodiscard]] std::optional<TriangleLinks> linked(
