@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "cutter/search/ray_tile.hpp"
 #include "cutter/sweep/concave_sweep.hpp"
 #include "cutter/sweep/segment_sweep.hpp"
 #include "cutter/sweep/swept_box.hpp"
@@ -55,6 +56,23 @@ class LeastDistance {
   const Vec3& point_;
   double least_;
 };
+
+// Of what is covered, within the span; gaps of rounding are passed over.
+IntervalSet intervals_of(std::span<const SweptInterval> cover, const RaySpan& span) {
+  std::vector<Interval> all;
+  all.reserve(cover.size());
+  for (const SweptInterval& c : cover) {
+    const auto lo_tag = static_cast<EndTag>(c.lo.segment),
+               hi_tag = static_cast<EndTag>(c.hi.segment);
+    if (!all.empty() && c.lo.s - all.back().hi < kPassedOver) {
+      all.back().hi = c.hi.s;
+      all.back().hi_tag = hi_tag;
+    } else {
+      all.push_back({c.lo.s, c.hi.s, lo_tag, hi_tag});
+    }
+  }
+  return IntervalSet(std::move(all)).intersected(IntervalSet({{span.lo, span.hi}}));
+}
 
 double accuracy_of(const Body& body) {
   const double convex = 2.0 * kSearchTolerance + kMissedDepth;
@@ -111,21 +129,29 @@ IntervalSet SweptCutter::along(const Ray& ray, RaySpan span, std::uint32_t first
   const RayQuestion question{&path_, ray, span, first_excluded};
   std::vector<SweptInterval> cover;
   for (const ToolSweep& sweep : *sweeps_) extend_swept_interval(question, sweep, cover);
-  std::vector<Interval> all;
-  all.reserve(cover.size());
-  for (const SweptInterval& c : cover) {
-    const auto lo_tag = static_cast<EndTag>(c.lo.segment),
-               hi_tag = static_cast<EndTag>(c.hi.segment);
-    if (!all.empty() && c.lo.s - all.back().hi < kPassedOver) {
-      all.back().hi = c.hi.s;
-      all.back().hi_tag = hi_tag;
-    } else {
-      all.push_back({c.lo.s, c.hi.s, lo_tag, hi_tag});
-    }
-  }
-  return IntervalSet(std::move(all)).intersected(IntervalSet({{span.lo, span.hi}}));
+  return intervals_of(cover, span);
 }
 
+std::vector<IntervalSet> SweptCutter::along_all(std::span<const Ray> rays,
+                                                std::span<const RaySpan> spans, std::size_t row,
+                                                std::uint32_t first_excluded) const {
+  std::vector<IntervalSet> all(rays.size());
+  const bool convex = std::ranges::all_of(
+      *sweeps_, [](const ToolSweep& sweep) { return sweep.body->concave().empty(); });
+  if (!convex) {
+    for (std::size_t r = 0; r < rays.size(); ++r) {
+      if (spans[r].lo <= spans[r].hi) all[r] = along(rays[r], spans[r], first_excluded);
+    }
+    return all;
+  }
+  std::vector<std::vector<SweptInterval>> cover(rays.size());
+  const TileQuestion question{&path_, body_of_block_, rays, spans, row, first_excluded};
+  for (const ToolSweep& sweep : *sweeps_) extend_swept_intervals(question, sweep, cover);
+  for (std::size_t r = 0; r < rays.size(); ++r) {
+    if (!cover[r].empty()) all[r] = intervals_of(cover[r], spans[r]);
+  }
+  return all;
+}
 std::optional<SweepContact> SweptCutter::end_of_void(const Ray& ray, double from, double to,
                                                      std::uint32_t first_excluded) const {
   const RayQuestion question{&path_, ray, {from, to}, first_excluded};

@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/interval_set.hpp"
 #include "core/ray.hpp"
@@ -41,6 +42,11 @@ class SweptCutter {
   // them where the parts of a cutter meet.
   [[nodiscard]] IntervalSet along(const Ray& ray, RaySpan span,
                                   std::uint32_t first_excluded = kAll) const;
+  // The same of parallel rays, bit for bit: in rows of `row`, neighbours near each other, so that
+  // they share their search. Where a span is empty (lo above hi), nothing is asked.
+  [[nodiscard]] std::vector<IntervalSet> along_all(std::span<const Ray> rays,
+                                                   std::span<const RaySpan> spans, std::size_t row,
+                                                   std::uint32_t first_excluded = kAll) const;
   // Walks from `from` to the end of what is covered there without a gap: where a probe that comes
   // out of the void meets material. Nothing if `from` is not covered. Gaps of less than 1e-9 mm are
   // passed over.

@@ -17,7 +17,7 @@ constexpr double kPoseRounding = 1e-11;
 constexpr double kBoundRounding = 1e-11;
 constexpr double kRoundingShare = 0.0025;
 // Below this cosine between the ray and a plane its rounding is too much along the ray.
-constexpr double kGrazing = 0.02;
+constexpr double kGrazingEnd = 0.02;
 
 // Of a place that is `depth` on the way out of what is covered.
 double step_of(double depth) { return std::floor(depth * (1.0 / kSearchTolerance)); }
@@ -114,8 +114,8 @@ bool WholeSweep::held_by(End& end, std::uint32_t segment, const SegmentMotion& m
   const SeparatingPlane& plane = plane_at(end, leaving);
   if (segment > end.at.segment) {
     const double depth = depth_of(end.at, leaving);
-    if (step_of(depth + 2.0 * kRounding / kGrazing) == step_of(depth) &&
-        plane.along(motion.at(0.0)) > kGrazing) {
+    if (step_of(depth + 2.0 * kRounding / kGrazingEnd) == step_of(depth) &&
+        plane.along(motion.at(0.0)) > kGrazingEnd) {
       return plane.holds(motion, kRounding);
     }
   }

@@ -10,6 +10,8 @@
 
 #include <concepts>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "core/interval_set.hpp"
 #include "core/ray.hpp"
@@ -36,6 +38,20 @@ std::optional<SurfacePoint> first_surface_of(const S& solid, const Ray& ray, Ray
   }
 }
 
+// The material along parallel rays, in rows of `row`: shared work, where the solid offers that.
+template <RaySolid S>
+std::vector<IntervalSet> material_of_all(const S& solid, std::span<const Ray> rays, std::size_t row,
+                                         RaySpan span) {
+  if constexpr (requires { solid.material_along_all(rays, row, span); }) {
+    return solid.material_along_all(rays, row, span);
+  } else {
+    std::vector<IntervalSet> all;
+    all.reserve(rays.size());
+    for (const Ray& ray : rays) all.push_back(solid.material_along(ray, span));
+    return all;
+  }
+}
+
 // Refers to a RaySolid without owning it, so that the extraction is compiled once. The solid must
 // outlive the view; a view as a function parameter is the intended use.
 class SolidView {
@@ -47,6 +63,9 @@ class SolidView {
         along_([](const void* self, const Ray& ray, RaySpan span) -> IntervalSet {
           return static_cast<const S*>(self)->material_along(ray, span);
         }),
+        all_([](const void* self, std::span<const Ray> rays, std::size_t row, RaySpan span) {
+          return material_of_all(*static_cast<const S*>(self), rays, row, span);
+        }),
         surface_([](const void* self, const Ray& ray, double s, EndTag tag) -> SurfacePoint {
           return static_cast<const S*>(self)->surface_at(ray, s, tag);
         }),
@@ -56,6 +75,11 @@ class SolidView {
 
   [[nodiscard]] IntervalSet material_along(const Ray& ray, RaySpan span) const {
     return along_(solid_, ray, span);
+  }
+  // Of parallel rays, in rows of `row`, neighbours near each other.
+  [[nodiscard]] std::vector<IntervalSet> material_along_all(std::span<const Ray> rays,
+                                                            std::size_t row, RaySpan span) const {
+    return all_(solid_, rays, row, span);
   }
   [[nodiscard]] SurfacePoint surface_at(const Ray& ray, double s, EndTag tag) const {
     return surface_(solid_, ray, s, tag);
@@ -67,6 +91,7 @@ class SolidView {
  private:
   const void* solid_;
   IntervalSet (*along_)(const void*, const Ray&, RaySpan);
+  std::vector<IntervalSet> (*all_)(const void*, std::span<const Ray>, std::size_t, RaySpan);
   SurfacePoint (*surface_)(const void*, const Ray&, double, EndTag);
   std::optional<SurfacePoint> (*first_)(const void*, const Ray&, RaySpan);
 };

@@ -86,6 +86,10 @@ class WorkpieceAt {
   [[nodiscard]] IntervalSet material_along(const Ray& ray, RaySpan span) const {
     return workpiece_->material_along(ray, span, program_state_.segments);
   }
+  [[nodiscard]] std::vector<IntervalSet> material_along_all(std::span<const Ray> rays,
+                                                            std::size_t row, RaySpan span) const {
+    return workpiece_->material_along_all(rays, row, span, program_state_.segments);
+  }
   [[nodiscard]] SurfacePoint surface_at(const Ray& ray, double s, EndTag tag) const {
     return workpiece_->surface_at(ray, s, tag);
   }
