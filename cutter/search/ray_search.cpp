@@ -131,10 +131,19 @@ void extend_swept_interval(const RayQuestion& question, const ToolSweep& sweep,
 
 bool advance_front(const RayQuestion& question, const ToolSweep& sweep, double gap,
                    SweptIntervalEnd& front) {
+  constexpr std::uint32_t kRoot = 0;
+  if (sweep.tree.groups().empty()) return false;
+  return advance_front(question, sweep, gap, {&kRoot, 1}, {}, front);
+}
+
+bool advance_front(const RayQuestion& question, const ToolSweep& sweep, double gap,
+                   std::span<const std::uint32_t> groups, std::span<const std::uint32_t> first,
+                   SweptIntervalEnd& front) {
   const EndPlanes planes(question, *sweep.body);
   Front goal(question.span, planes, gap, front);
   GroupSearch search(question, sweep, goal);
-  search.run(0);
+  for (const std::uint32_t segment : first) search.solve_parts(segment);
+  search.run(groups);
   while (const auto group = goal.next_deferred()) search.run(*group);
   return goal.moved();
 }

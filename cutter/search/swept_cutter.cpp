@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -154,18 +155,79 @@ std::vector<IntervalSet> SweptCutter::along_all(std::span<const Ray> rays,
 }
 std::optional<SweepContact> SweptCutter::end_of_void(const Ray& ray, double from, double to,
                                                      std::uint32_t first_excluded) const {
+  return end_of_void(ray, from, to, {}, first_excluded);
+}
+
+std::optional<SweepContact> SweptCutter::end_of_void(const Ray& ray, double from, double to,
+                                                     const Likely& likely,
+                                                     std::uint32_t first_excluded) const {
   const RayQuestion question{&path_, ray, {from, to}, first_excluded};
   SweptIntervalEnd front{.s = from};
   bool moved = false;
-  for (bool again = true; again;) {
-    again = false;
-    for (const ToolSweep& sweep : *sweeps_)
-      again |= advance_front(question, sweep, kPassedOver, front);
-    moved |= again;
-    again = again && sweeps_->size() > 1;
+  constexpr std::uint32_t kRoot = 0;
+  constexpr std::size_t kMostFirst = 4;
+  const auto tools = sweeps_->size();
+  // Until no tool has moved it since all the others were asked.
+  std::size_t still = 0;
+  for (std::size_t tool = 0; still < tools; tool = (tool + 1) % tools) {
+    const ToolSweep& sweep = (*sweeps_)[tool];
+    ++still;
+    const std::span<const std::uint32_t> groups =
+        likely.near != nullptr ? std::span<const std::uint32_t>(likely.near->groups[tool])
+                               : std::span(&kRoot, 1);
+    if (groups.empty() || sweep.tree.groups().empty()) continue;
+    std::array<std::uint32_t, kMostFirst> first{};
+    std::size_t count = 0;
+    for (const EndTag tag : likely.segments) {
+      if (tag < 0 || tag >= static_cast<EndTag>(first_excluded) || count == kMostFirst) continue;
+      const auto segment = static_cast<std::uint32_t>(tag);
+      if (&body_of(segment) == sweep.body) first[count++] = segment;
+    }
+    if (advance_front(question, sweep, kPassedOver, groups, std::span(first).first(count), front)) {
+      moved = true;
+      still = 1;
+    }
   }
   if (!moved) return std::nullopt;
   return contact_of(ray, front);
+}
+
+bool SweptNear::empty() const {
+  return std::ranges::all_of(groups, [](const auto& tool) { return tool.empty(); });
+}
+
+SweptNear SweptCutter::near(const Vec3& centre, double radius, std::uint32_t first_excluded,
+                            const SweptNear* within) const {
+  SweptNear near{centre, radius, {}};
+  near.groups.resize(sweeps_->size());
+  std::vector<std::uint32_t> open;
+  for (std::size_t tool = 0; tool < sweeps_->size(); ++tool) {
+    const ToolSweep& sweep = (*sweeps_)[tool];
+    const auto groups = sweep.tree.groups();
+    open.clear();
+    if (within != nullptr) {
+      open = within->groups[tool];
+    } else if (!groups.empty()) {
+      open.push_back(0);
+    }
+    while (!open.empty()) {
+      const std::uint32_t index = open.back();
+      open.pop_back();
+      const PoseGroup& group = groups[index];
+      if (group.earliest >= first_excluded) continue;
+      const Vec3 beyond =
+          (group.box.min - centre).cwiseMax(centre - group.box.max).cwiseMax(Vec3::Zero());
+      if (beyond.squaredNorm() > radius * radius) continue;
+      if (sweep.body->distance(group.representative, centre) - group.shift > radius) continue;
+      if (group.count == 0 && group.shift > radius) {
+        open.push_back(group.children + 1);
+        open.push_back(group.children);
+      } else {
+        near.groups[tool].push_back(index);
+      }
+    }
+  }
+  return near;
 }
 
 SweepContact SweptCutter::contact_of(const Ray& ray, const SweptIntervalEnd& end) const {

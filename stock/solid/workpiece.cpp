@@ -108,9 +108,16 @@ SurfacePoint Workpiece::surface_point(const Ray& ray, const cutter::SweepContact
 
 std::optional<SurfacePoint> Workpiece::first_surface(const Ray& ray, RaySpan span,
                                                      std::uint32_t first_excluded_segment) const {
+  return first_surface(ray, span, {}, first_excluded_segment);
+}
+
+std::optional<SurfacePoint> Workpiece::first_surface(const Ray& ray, RaySpan span,
+                                                     const cutter::SweptCutter::Likely& likely,
+                                                     std::uint32_t first_excluded_segment) const {
   const IntervalSet uncut = blank_.along(ray, span);
   for (const Interval& chord : uncut.intervals()) {
-    const auto contact = removed_.end_of_void(ray, chord.lo, chord.hi, first_excluded_segment);
+    const auto contact =
+        removed_.end_of_void(ray, chord.lo, chord.hi, likely, first_excluded_segment);
     if (!contact) {
       if (chord.lo_tag == -1) return std::nullopt;  // the span begins inside the material
       return surface_at(ray, chord.lo, tag_of_face(chord.lo_tag));

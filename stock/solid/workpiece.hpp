@@ -64,6 +64,17 @@ class Workpiece {
       const Ray& ray, RaySpan span,
       std::uint32_t first_excluded_segment = cutter::SweptCutter::kAll) const;
 
+  // The same, begun with what is likely to have made it.
+  [[nodiscard]] std::optional<SurfacePoint> first_surface(
+      const Ray& ray, RaySpan span, const cutter::SweptCutter::Likely& likely,
+      std::uint32_t first_excluded_segment = cutter::SweptCutter::kAll) const;
+
+  // What may have cut within `radius` of `centre`; `within`: of a ball around this one.
+  [[nodiscard]] cutter::SweptNear near(const Vec3& centre, double radius,
+                                       const cutter::SweptNear* within = nullptr) const {
+    return removed_.near(centre, radius, cutter::SweptCutter::kAll, within);
+  }
+
   [[nodiscard]] const Blank& blank() const { return blank_; }
   [[nodiscard]] const cutter::SweptCutter& removed() const { return removed_; }
 
