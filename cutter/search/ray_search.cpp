@@ -5,6 +5,7 @@
 
 #include "core/constants.hpp"
 #include "cutter/search/group_search.hpp"
+#include "cutter/search/path_climb.hpp"
 #include "cutter/search/separating_plane.hpp"
 #include "cutter/search/whole_sweep.hpp"
 
@@ -142,7 +143,9 @@ bool advance_front(const RayQuestion& question, const ToolSweep& sweep, double g
   const EndPlanes planes(question, *sweep.body);
   Front goal(question.span, planes, gap, front);
   GroupSearch search(question, sweep, goal);
-  for (const std::uint32_t segment : first) search.solve_parts(segment);
+  for (const std::uint32_t segment : first) {
+    search.solve_parts(climbed(question, *sweep.body, segment, true));
+  }
   search.run(groups);
   while (const auto group = goal.next_deferred()) search.run(*group);
   return goal.moved();

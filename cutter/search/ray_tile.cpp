@@ -7,6 +7,7 @@
 
 #include "core/constants.hpp"
 #include "cutter/search/group_search.hpp"
+#include "cutter/search/path_climb.hpp"
 #include "cutter/search/whole_sweep.hpp"
 #include "cutter/sweep/tangent_plane.hpp"
 
@@ -172,14 +173,13 @@ class TileSearch {
     if (neighbour) {
       hints_.clear();
       for (const SweptInterval& c : swept_[*neighbour]) {
-        for (const SweptIntervalEnd& end : {c.lo, c.hi}) {
-          const double s = end.s;
-          if (s <= question.span.lo || s >= question.span.hi || body_of(end) != sweep_.body ||
-              std::ranges::find(hints_, end.segment) != hints_.end()) {
-            continue;
-          }
-          hints_.push_back(end.segment);
-          search.solve_parts(end.segment);
+        for (const bool leaving : {false, true}) {
+          const SweptIntervalEnd& end = leaving ? c.hi : c.lo;
+          if (body_of(end) != sweep_.body) continue;
+          const std::uint32_t likely = climbed(question, *sweep_.body, end.segment, leaving);
+          if (std::ranges::find(hints_, likely) != hints_.end()) continue;
+          hints_.push_back(likely);
+          search.solve_parts(likely);
         }
       }
     }
