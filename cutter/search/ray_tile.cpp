@@ -16,6 +16,8 @@ namespace {
 
 // Bounds of groups hold but for rounding (mm); this is a hundred times that.
 constexpr double kSurely = 1e-10;
+// The ends of an anchor count for so much less (mm): more than a solution leaves of an end.
+constexpr double kInward = 1e-6;
 // Planes that a ray meets at a smaller cosine bound badly.
 constexpr double kGrazingCover = 0.02;
 
@@ -34,12 +36,23 @@ struct Tile {
   double size = 0.0;  // mm across
 };
 
+// A cutter that covers all rays of a tile beyond the span. Groups that are left aside for it may
+// hold its own segment: so it is asked itself.
+struct Anchor {
+  const Profile* part = nullptr;
+  ToolPose pose{};
+  std::uint32_t segment = 0;
+  std::uint32_t section = 0;
+  double t = 0.0;
+};
+
 // One end of what a cutter at a pose covers, on all rays of a tile.
 struct HalfCover {
   std::array<Chord, 4> chords{};  // of the corners
   Vec3 normal = Vec3::Zero();
   double least = 0.0;  // no ray of the tile leaves the cutter before this height along the normal
   bool is_beyond = false;  // the end is beyond the span on all rays
+  Anchor anchor{};
 };
 
 // What is covered for certain on all rays of a tile: between two planes.
@@ -142,11 +155,12 @@ class TileSearch {
       first = last;
       last = lists_.size();
     }
-    if (first == last) return;
+    if (first == last && anchors_.empty()) return;
     solve(*middle, first, last, neighbour);
     done_[*middle] = 1;
     if (count == 1) return;
     constexpr std::size_t kFew = 2;
+    const std::size_t anchored = anchors_.size();
     if (count > kFew && middle_of(at)) {
       const Tile tile = tile_of(at, question_.rays[*middle]);
       find_covers(tile, *middle);
@@ -160,6 +174,7 @@ class TileSearch {
       divide(part, first, middle);
       lists_.resize(kept);
     }
+    anchors_.resize(anchored);
   }
 
   // One ray, from the answer of its neighbour on.
@@ -170,6 +185,13 @@ class TileSearch {
     const EndPlanes planes(question, *sweep_.body);
     WholeSweep goal(question, sweep_, planes, swept_[r]);
     GroupSearch search(question, sweep_, goal);
+    for (const Anchor& anchor : anchors_) {
+      const auto chord = anchor.part->chord(anchor.pose, question.ray);
+      if (!chord) continue;
+      // Its ends within the span are its segment's, which finds them itself.
+      goal.take({{chord->lo + kInward, anchor.segment, anchor.section, anchor.t, chord->lo_face},
+                 {chord->hi - kInward, anchor.segment, anchor.section, anchor.t, chord->hi_face}});
+    }
     if (neighbour) {
       hints_.clear();
       for (const SweptInterval& c : swept_[*neighbour]) {
@@ -210,6 +232,7 @@ class TileSearch {
     HalfCover cover;
     const TangentPlane plane(part, pose, ray, *known, leaving);
     if (plane.along < kGrazingCover) return std::nullopt;
+    cover.anchor = {&part, pose, end.segment, end.section, end.t};
     cover.normal = plane.normal_across(pose.axis);
     cover.least = kInfinity;
     cover.is_beyond = true;
@@ -219,7 +242,8 @@ class TileSearch {
       cover.chords[k] = *chord;
       const double s = leaving ? chord->hi : chord->lo;
       cover.least = std::min(cover.least, cover.normal.dot(tile.corners[k].at(s)));
-      cover.is_beyond = cover.is_beyond && (leaving ? s >= tile.span.hi : s <= tile.span.lo);
+      cover.is_beyond = cover.is_beyond && (leaving ? s >= tile.span.hi + 2.0 * kInward
+                                                    : s <= tile.span.lo - 2.0 * kInward);
     }
     return cover;
   }
@@ -230,21 +254,36 @@ class TileSearch {
     for (const SweptInterval& c : swept_[middle]) {
       const auto lo = half_cover(tile, ray, c.lo, false), hi = half_cover(tile, ray, c.hi, true);
       if (lo && hi && overlap(*lo, *hi)) {
-        covers_.push_back({*lo, *hi});
+        add_cover({*lo, *hi});
         continue;
       }
       for (const SweptIntervalEnd& end : {c.lo, c.hi}) {
         const auto enters = half_cover(tile, ray, end, false);
         const auto leaves = half_cover(tile, ray, end, true);
-        if (enters && leaves) covers_.push_back({*enters, *leaves});
+        if (enters && leaves) add_cover({*enters, *leaves});
       }
+    }
+  }
+
+  void add_cover(const Cover& cover) {
+    covers_.push_back(cover);
+    // What other tools cover is known of every ray.
+    const auto is_own = [&](const Anchor& anchor) {
+      const std::uint32_t block = question_.path->segments[anchor.segment].block;
+      return question_.body_of_block[block] == sweep_.body;
+    };
+    for (const HalfCover& half : {cover.lo, cover.hi}) {
+      if (half.is_beyond && is_own(half.anchor)) anchors_.push_back(half.anchor);
     }
   }
 
   // Chords of two convex cutters that overlap at all corners do so on all rays between.
   [[nodiscard]] static bool overlap(const HalfCover& a, const HalfCover& b) {
     for (std::size_t k = 0; k < 4; ++k) {
-      if (a.chords[k].lo > b.chords[k].hi || b.chords[k].lo > a.chords[k].hi) return false;
+      if (a.chords[k].lo > b.chords[k].hi - 4.0 * kInward ||
+          b.chords[k].lo > a.chords[k].hi - 4.0 * kInward) {
+        return false;
+      }
     }
     return true;
   }
@@ -329,6 +368,7 @@ class TileSearch {
   std::vector<std::uint32_t> lists_{};  // a stack: of each tile on the way down, what is open
   std::vector<std::uint32_t> hints_{};
   std::vector<Cover> covers_{};
+  std::vector<Anchor> anchors_{};  // a stack too
 };
 
 }  // namespace
