@@ -34,12 +34,15 @@ struct GroupLimit {
 // What promises most comes first. The goal knows what it still wants:
 //   RaySpan span()            where on the ray
 //   GroupLimit limit(group)   what do the ends found so far, by their planes, leave of the group?
-//   bool holds(motion)        do they leave nothing of this motion?
+//   bool holds(segment, motion)  do they leave nothing of this motion?
 //   bool wants(group, reach)  could this still add anything?
 //   bool wants_lo(lo)         does it matter where a group begins whose representative begins
 //   there? double promise(reach)     the more, the sooner it is asked
 //   void take(interval)       covered for certain
-//   span<const Chord> known() ends of segments inside these need not be exact
+//   void take_solved(interval)  what a segment covers: its own ends
+//   span<const Chord> known() is covered anyway
+//   span<const Chord> floors() ends of segments inside these need not be exact
+//   bool wants_piece(group, lo, hi)  could a piece of ray still add anything?
 //   int change()              another number whenever more is covered
 template <class Goal>
 class GroupSearch {
@@ -56,7 +59,11 @@ class GroupSearch {
 
   void run(std::uint32_t group) {
     if (groups_.empty()) return;
-    consider(group);
+    run(std::span(&group, 1));
+  }
+  // In the order given, but that what promises most comes first.
+  void run(std::span<const std::uint32_t> groups) {
+    for (const std::uint32_t group : groups) consider(group);
     while (!open_.empty()) {
       std::ranges::pop_heap(open_, {}, &Candidate::promise);
       const Candidate next = open_.back();
@@ -66,9 +73,12 @@ class GroupSearch {
     while (!gaps_.empty()) {
       const Gap gap = gaps_.back();
       gaps_.pop_back();
-      if (goal_.wants(gap.group, {gap.lo.s, gap.hi.s})) walk(gap);
+      if (goal_.wants_piece(gap.group, gap.lo.s, gap.hi.s)) walk(gap);
     }
   }
+
+  // What the convex parts cover in this segment, whatever is covered already.
+  void solve_parts(std::uint32_t segment) { solve_parts(segment, motion_of(segment)); }
 
  private:
   struct Candidate {
@@ -165,22 +175,29 @@ class GroupSearch {
 
   void solve(std::uint32_t group, std::uint32_t segment) {
     const SegmentMotion motion = motion_of(segment);
-    if (goal_.holds(motion)) return;
+    if (goal_.holds(segment, motion)) return;
+    solve_parts(segment, motion);
     const auto sections = sweep_.body->sections();
-    for (std::uint32_t i = 0; i < sections.size(); ++i) {
+    for (auto i = static_cast<std::uint32_t>(parts_.size()); i < sections.size(); ++i) {
       found_.clear();
       append_swept_intervals(sections[i], motion, question_.ray, goal_.known(), found_);
-      if (i >= parts_.size()) join_overlapping(found_);
-      for (const SegmentInterval& f : found_) {
-        const SweptInterval swept{{f.lo.s, segment, i, f.lo.t, f.lo.face},
-                                  {f.hi.s, segment, i, f.hi.t, f.hi.face}};
-        if (i < parts_.size()) {
-          goal_.take(swept);
-        } else {
-          take_of_hull(group, motion, swept);
-        }
-      }
+      join_overlapping(found_);
+      for (const SegmentInterval& f : found_) take_of_hull(group, motion, swept_of(segment, i, f));
     }
+  }
+
+  void solve_parts(std::uint32_t segment, const SegmentMotion& motion) {
+    for (std::uint32_t i = 0; i < parts_.size(); ++i) {
+      found_.clear();
+      append_swept_intervals(parts_[i], motion, question_.ray, goal_.floors(), found_);
+      for (const SegmentInterval& f : found_) goal_.take_solved(swept_of(segment, i, f));
+    }
+  }
+
+  [[nodiscard]] static SweptInterval swept_of(std::uint32_t segment, std::uint32_t section,
+                                              const SegmentInterval& f) {
+    return {{f.lo.s, segment, section, f.lo.t, f.lo.face},
+            {f.hi.s, segment, section, f.hi.t, f.hi.face}};
   }
 
   // Between what is known of a hull's sweep: covered if the body is there
@@ -198,7 +215,7 @@ class GroupSearch {
                            (gap.lo_is_end && concave.covers_from(hi, swept_end(swept.lo)));
       (covered ? covered_ : gaps_).push_back(gap);
     });
-    for (const Gap& c : covered_) goal_.take({c.lo, c.hi});
+    for (const Gap& c : covered_) goal_.take_solved({c.lo, c.hi});
   }
 
   // What of lo to hi is not known to be covered, in order. `then` must not take anything.
@@ -219,7 +236,7 @@ class GroupSearch {
 
   void walk(const Gap& gap) {
     const SegmentMotion motion = motion_of(gap.segment);
-    if (goal_.holds(motion)) return;
+    if (goal_.holds(gap.segment, motion)) return;
     const ConcaveSweep concave(*sweep_.body, motion, question_.ray);
     const auto end_at = [&](const SweptEnd& end) -> SweptIntervalEnd {
       constexpr double kSameEnd = 1e-9;  // mm
@@ -230,7 +247,7 @@ class GroupSearch {
     found_.clear();
     for_each_unknown(gap.lo.s, gap.hi.s,
                      [&](double lo, double hi) { concave.walk(lo, hi, found_); });
-    for (const SegmentInterval& f : found_) goal_.take({end_at(f.lo), end_at(f.hi)});
+    for (const SegmentInterval& f : found_) goal_.take_solved({end_at(f.lo), end_at(f.hi)});
   }
 
   const RayQuestion& question_;

@@ -60,5 +60,9 @@ void extend_swept_interval(const RayQuestion& question, const ToolSweep& sweep,
 // than `gap` are passed over.
 bool advance_front(const RayQuestion& question, const ToolSweep& sweep, double gap,
                    SweptIntervalEnd& front);
+// The same where nothing else counts than `groups`; segments in `first` are asked first.
+bool advance_front(const RayQuestion& question, const ToolSweep& sweep, double gap,
+                   std::span<const std::uint32_t> groups, std::span<const std::uint32_t> first,
+                   SweptIntervalEnd& front);
 
 }  // namespace frustum::cutter

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "cutter/search/group_bound.hpp"
-#include "cutter/sweep/segment_sweep.hpp"
 
 namespace frustum::cutter {
 
@@ -65,7 +64,7 @@ std::optional<SupportingPlane> SeparatingPlane::touching(const ToolPose& pose) c
   return plane;
 }
 
-Overreach SeparatingPlane::overreach(const PoseGroup& group) const {
+Overreach SeparatingPlane::overreach(const PoseGroup& group, double slack) const {
   if (body_ == nullptr) return {};
   const std::optional<SupportingPlane> plane = touching(group.representative);
   if (!plane) return {};
@@ -73,11 +72,18 @@ Overreach SeparatingPlane::overreach(const PoseGroup& group) const {
   const double fall = n.dot(beyond_) - normal_turn(group);
   if (!(fall > 0.0)) return {};
   const Vec3 m = end_ - group.representative.tip;
-  const double room = n.dot(m) - plane->offset + kSearchTolerance;
-  return {(most_lost(*plane, group, m) - room) / fall, room < 0.0};
+  const double room = n.dot(m) - plane->offset + slack;
+  constexpr double kRounding = 1e-12;  // mm
+  return {(most_lost(*plane, group, m) - room) / fall, room < 0.0, kRounding / fall};
 }
 
-bool SeparatingPlane::holds(const SegmentMotion& motion) const {
+double SeparatingPlane::along(const ToolPose& pose) const {
+  if (body_ == nullptr) return 0.0;
+  const std::optional<SupportingPlane> plane = touching(pose);
+  return plane ? plane->normal_across(pose.axis).dot(beyond_) : 0.0;
+}
+
+bool SeparatingPlane::holds(const SegmentMotion& motion, double slack) const {
   constexpr double kFarTurned = 0.05;  // plane_departure() holds up to here
   if (body_ == nullptr || motion.turn() > kFarTurned) return false;
   const ToolPose from = motion.at(0.0), to = motion.at(1.0);
@@ -89,9 +95,9 @@ bool SeparatingPlane::holds(const SegmentMotion& motion) const {
           : motion.plane_departure(1.0, std::max((end_ - from.tip).norm(), (end_ - to.tip).norm()),
                                    (to.tip - from.tip).norm());
   const Vec3 n = plane->normal_across(from.axis);
-  if (!(n.dot(end_ - from.tip) - plane->offset + kSearchTolerance >= departure)) return false;
+  if (!(n.dot(end_ - from.tip) - plane->offset + slack >= departure)) return false;
   if (!(n.dot(beyond_) > 1.1 * motion.turn())) return false;
-  return plane->height(to, end_) + kSearchTolerance >= departure;
+  return plane->height(to, end_) + slack >= departure;
 }
 
 }  // namespace frustum::cutter

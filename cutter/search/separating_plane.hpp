@@ -8,7 +8,7 @@
 //            plane's distance is bounded
 // Units    : mm; frame: workpiece
 // Errors   : none; false says nothing
-// Accuracy : proofs hold but for kSearchTolerance normal to the surface
+// Accuracy : proofs hold but for kSearchTolerance normal to the surface, or for another slack
 #pragma once
 
 #include <limits>
@@ -17,6 +17,7 @@
 #include "cutter/body/body.hpp"
 #include "cutter/search/pose_tree.hpp"
 #include "cutter/sweep/segment_motion.hpp"
+#include "cutter/sweep/segment_sweep.hpp"
 #include "cutter/sweep/supporting_plane.hpp"
 
 namespace frustum::cutter {
@@ -33,6 +34,7 @@ struct EndContact {
 struct Overreach {
   double most = std::numeric_limits<double>::infinity();  // mm; not positive: surely nothing
   bool by_representative = true;
+  double rounding = 0.0;  // of `most` (mm): what 1e-12 mm normal to the plane makes along the ray
 };
 
 class SeparatingPlane {
@@ -42,9 +44,13 @@ class SeparatingPlane {
   // `leaving`: what is covered is before the end, else after it.
   SeparatingPlane(const Body& body, const Ray& ray, const EndContact& end, bool leaving);
 
-  [[nodiscard]] Overreach overreach(const PoseGroup& group) const;
+  // `slack`: so much beyond the plane, normal to it, does not count (mm). Negative: the proof is
+  // that the cutter stays so much before the end.
+  [[nodiscard]] Overreach overreach(const PoseGroup& group, double slack = kSearchTolerance) const;
+  // Cosine between the ray and the plane's normal when the body is at the pose; 0: no plane.
+  [[nodiscard]] double along(const ToolPose& pose) const;
   // Whether the moving body surely covers nothing beyond the end.
-  [[nodiscard]] bool holds(const SegmentMotion& motion) const;
+  [[nodiscard]] bool holds(const SegmentMotion& motion, double slack = kSearchTolerance) const;
 
  private:
   // The plane that touches the body at the pose, perpendicular to the way to the end.

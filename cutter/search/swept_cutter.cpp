@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "cutter/search/ray_tile.hpp"
 #include "cutter/sweep/concave_sweep.hpp"
 #include "cutter/sweep/segment_sweep.hpp"
 #include "cutter/sweep/swept_box.hpp"
@@ -55,6 +57,23 @@ class LeastDistance {
   const Vec3& point_;
   double least_;
 };
+
+// Of what is covered, within the span; gaps of rounding are passed over.
+IntervalSet intervals_of(std::span<const SweptInterval> cover, const RaySpan& span) {
+  std::vector<Interval> all;
+  all.reserve(cover.size());
+  for (const SweptInterval& c : cover) {
+    const auto lo_tag = static_cast<EndTag>(c.lo.segment),
+               hi_tag = static_cast<EndTag>(c.hi.segment);
+    if (!all.empty() && c.lo.s - all.back().hi < kPassedOver) {
+      all.back().hi = c.hi.s;
+      all.back().hi_tag = hi_tag;
+    } else {
+      all.push_back({c.lo.s, c.hi.s, lo_tag, hi_tag});
+    }
+  }
+  return IntervalSet(std::move(all)).intersected(IntervalSet({{span.lo, span.hi}}));
+}
 
 double accuracy_of(const Body& body) {
   const double convex = 2.0 * kSearchTolerance + kMissedDepth;
@@ -111,35 +130,104 @@ IntervalSet SweptCutter::along(const Ray& ray, RaySpan span, std::uint32_t first
   const RayQuestion question{&path_, ray, span, first_excluded};
   std::vector<SweptInterval> cover;
   for (const ToolSweep& sweep : *sweeps_) extend_swept_interval(question, sweep, cover);
-  std::vector<Interval> all;
-  all.reserve(cover.size());
-  for (const SweptInterval& c : cover) {
-    const auto lo_tag = static_cast<EndTag>(c.lo.segment),
-               hi_tag = static_cast<EndTag>(c.hi.segment);
-    if (!all.empty() && c.lo.s - all.back().hi < kPassedOver) {
-      all.back().hi = c.hi.s;
-      all.back().hi_tag = hi_tag;
-    } else {
-      all.push_back({c.lo.s, c.hi.s, lo_tag, hi_tag});
+  return intervals_of(cover, span);
+}
+
+std::vector<IntervalSet> SweptCutter::along_all(std::span<const Ray> rays,
+                                                std::span<const RaySpan> spans, std::size_t row,
+                                                std::uint32_t first_excluded) const {
+  std::vector<IntervalSet> all(rays.size());
+  const bool convex = std::ranges::all_of(
+      *sweeps_, [](const ToolSweep& sweep) { return sweep.body->concave().empty(); });
+  if (!convex) {
+    for (std::size_t r = 0; r < rays.size(); ++r) {
+      if (spans[r].lo <= spans[r].hi) all[r] = along(rays[r], spans[r], first_excluded);
     }
+    return all;
   }
-  return IntervalSet(std::move(all)).intersected(IntervalSet({{span.lo, span.hi}}));
+  std::vector<std::vector<SweptInterval>> cover(rays.size());
+  const TileQuestion question{&path_, body_of_block_, rays, spans, row, first_excluded};
+  for (const ToolSweep& sweep : *sweeps_) extend_swept_intervals(question, sweep, cover);
+  for (std::size_t r = 0; r < rays.size(); ++r) {
+    if (!cover[r].empty()) all[r] = intervals_of(cover[r], spans[r]);
+  }
+  return all;
+}
+std::optional<SweepContact> SweptCutter::end_of_void(const Ray& ray, double from, double to,
+                                                     std::uint32_t first_excluded) const {
+  return end_of_void(ray, from, to, {}, first_excluded);
 }
 
 std::optional<SweepContact> SweptCutter::end_of_void(const Ray& ray, double from, double to,
+                                                     const Likely& likely,
                                                      std::uint32_t first_excluded) const {
   const RayQuestion question{&path_, ray, {from, to}, first_excluded};
   SweptIntervalEnd front{.s = from};
   bool moved = false;
-  for (bool again = true; again;) {
-    again = false;
-    for (const ToolSweep& sweep : *sweeps_)
-      again |= advance_front(question, sweep, kPassedOver, front);
-    moved |= again;
-    again = again && sweeps_->size() > 1;
+  constexpr std::uint32_t kRoot = 0;
+  constexpr std::size_t kMostFirst = 4;
+  const auto tools = sweeps_->size();
+  // Until no tool has moved it since all the others were asked.
+  std::size_t still = 0;
+  for (std::size_t tool = 0; still < tools; tool = (tool + 1) % tools) {
+    const ToolSweep& sweep = (*sweeps_)[tool];
+    ++still;
+    const std::span<const std::uint32_t> groups =
+        likely.near != nullptr ? std::span<const std::uint32_t>(likely.near->groups[tool])
+                               : std::span(&kRoot, 1);
+    if (groups.empty() || sweep.tree.groups().empty()) continue;
+    std::array<std::uint32_t, kMostFirst> first{};
+    std::size_t count = 0;
+    for (const EndTag tag : likely.segments) {
+      if (tag < 0 || tag >= static_cast<EndTag>(first_excluded) || count == kMostFirst) continue;
+      const auto segment = static_cast<std::uint32_t>(tag);
+      if (&body_of(segment) == sweep.body) first[count++] = segment;
+    }
+    if (advance_front(question, sweep, kPassedOver, groups, std::span(first).first(count), front)) {
+      moved = true;
+      still = 1;
+    }
   }
   if (!moved) return std::nullopt;
   return contact_of(ray, front);
+}
+
+bool SweptNear::empty() const {
+  return std::ranges::all_of(groups, [](const auto& tool) { return tool.empty(); });
+}
+
+SweptNear SweptCutter::near(const Vec3& centre, double radius, std::uint32_t first_excluded,
+                            const SweptNear* within) const {
+  SweptNear near{centre, radius, {}};
+  near.groups.resize(sweeps_->size());
+  std::vector<std::uint32_t> open;
+  for (std::size_t tool = 0; tool < sweeps_->size(); ++tool) {
+    const ToolSweep& sweep = (*sweeps_)[tool];
+    const auto groups = sweep.tree.groups();
+    open.clear();
+    if (within != nullptr) {
+      open = within->groups[tool];
+    } else if (!groups.empty()) {
+      open.push_back(0);
+    }
+    while (!open.empty()) {
+      const std::uint32_t index = open.back();
+      open.pop_back();
+      const PoseGroup& group = groups[index];
+      if (group.earliest >= first_excluded) continue;
+      const Vec3 beyond =
+          (group.box.min - centre).cwiseMax(centre - group.box.max).cwiseMax(Vec3::Zero());
+      if (beyond.squaredNorm() > radius * radius) continue;
+      if (sweep.body->distance(group.representative, centre) - group.shift > radius) continue;
+      if (group.count == 0 && group.shift > radius) {
+        open.push_back(group.children + 1);
+        open.push_back(group.children);
+      } else {
+        near.groups[tool].push_back(index);
+      }
+    }
+  }
+  return near;
 }
 
 SweepContact SweptCutter::contact_of(const Ray& ray, const SweptIntervalEnd& end) const {

@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/interval_set.hpp"
 #include "core/ray.hpp"
@@ -27,6 +28,18 @@
 #include "kinematics/path/tool_path.hpp"
 
 namespace frustum::cutter {
+
+// What may cover anything in a ball: groups of the trees of poses, by tool.
+struct SweptNear {
+  Vec3 centre = Vec3::Zero();
+  double radius = 0.0;  // mm
+  std::vector<std::vector<std::uint32_t>> groups{};
+
+  [[nodiscard]] bool holds(const Vec3& point) const {
+    return (point - centre).squaredNorm() <= radius * radius;
+  }
+  [[nodiscard]] bool empty() const;
+};
 
 class SweptCutter {
  public:
@@ -41,11 +54,28 @@ class SweptCutter {
   // them where the parts of a cutter meet.
   [[nodiscard]] IntervalSet along(const Ray& ray, RaySpan span,
                                   std::uint32_t first_excluded = kAll) const;
+  // The same of parallel rays, bit for bit: in rows of `row`, neighbours near each other, so that
+  // they share their search. Where a span is empty (lo above hi), nothing is asked.
+  [[nodiscard]] std::vector<IntervalSet> along_all(std::span<const Ray> rays,
+                                                   std::span<const RaySpan> spans, std::size_t row,
+                                                   std::uint32_t first_excluded = kAll) const;
   // Walks from `from` to the end of what is covered there without a gap: where a probe that comes
   // out of the void meets material. Nothing if `from` is not covered. Gaps of less than 1e-9 mm are
   // passed over.
   [[nodiscard]] std::optional<SweepContact> end_of_void(const Ray& ray, double from, double to,
                                                         std::uint32_t first_excluded = kAll) const;
+  // The same, begun with what is likely to make the end. `near`: what near() found for a ball that
+  // holds the ray from `from` to `to`.
+  struct Likely {
+    std::span<const EndTag> segments{};  // negative ones say nothing
+    const SweptNear* near = nullptr;
+  };
+  [[nodiscard]] std::optional<SweepContact> end_of_void(const Ray& ray, double from, double to,
+                                                        const Likely& likely,
+                                                        std::uint32_t first_excluded) const;
+  // What may cover anything within `radius` of `centre`; `within`: of a ball around this one.
+  [[nodiscard]] SweptNear near(const Vec3& centre, double radius, std::uint32_t first_excluded,
+                               const SweptNear* within = nullptr) const;
   // What the cutter, shrunk by `shrunk_by` all round, surely covers in these segments alone: the
   // cutter at poses a quarter of its radius apart. For finding collisions, not for surfaces.
   [[nodiscard]] IntervalSet core_along(const Ray& ray, std::span<const std::uint32_t> segments,

@@ -15,6 +15,9 @@ namespace {
 constexpr std::array<double, 3> kShift{0.64575131106459059, 0.41421356237309505,
                                        0.26794919243112270};
 
+// Rays of a tile, in each direction.
+constexpr int kTile = 16;
+
 // Nodes that the box needs along one axis, as a double because nobody has checked its size yet.
 double nodes_needed(double from, double to, double pitch, double shift) {
   return std::ceil((to - from) / pitch + 1.0 + shift) + 2.0;
@@ -87,21 +90,36 @@ TriDexel::Family TriDexel::sample_family(SolidView solid, const DexelGrid& grid,
   const auto index = [nu](int u, int v) {
     return static_cast<std::size_t>(v) * static_cast<std::size_t>(nu) + static_cast<std::size_t>(u);
   };
-  std::vector<std::vector<Interval>> rows(static_cast<std::size_t>(nv));
-  tbb::parallel_for(1, nv - 1, [&](int v) {
-    std::vector<Interval>& row = rows[static_cast<std::size_t>(v)];
-    for (int u = 1; u < nu - 1; ++u) {
-      const IntervalSet material = solid.material_along(grid.ray(axis, u, v), span);
-      row.insert(row.end(), material.intervals().begin(), material.intervals().end());
-      family.first[index(u, v) + 1] = material.intervals().size();
+  // Tiles of rays share their search.
+  const int tiles_u = (nu - 2 + kTile - 1) / kTile, tiles_v = (nv - 2 + kTile - 1) / kTile;
+  std::vector<std::vector<IntervalSet>> tiles(static_cast<std::size_t>(tiles_u * tiles_v));
+  tbb::parallel_for(0, tiles_u * tiles_v, [&](int tile) {
+    const int u0 = 1 + kTile * (tile % tiles_u), v0 = 1 + kTile * (tile / tiles_u);
+    const int u1 = std::min(u0 + kTile, nu - 1), v1 = std::min(v0 + kTile, nv - 1);
+    std::vector<Ray> rays;
+    rays.reserve(static_cast<std::size_t>(kTile) * kTile);
+    for (int v = v0; v < v1; ++v) {
+      for (int u = u0; u < u1; ++u) rays.push_back(grid.ray(axis, u, v));
+    }
+    auto& found = tiles[static_cast<std::size_t>(tile)];
+    found = solid.material_along_all(rays, static_cast<std::size_t>(u1 - u0), span);
+    for (std::size_t r = 0; r < found.size(); ++r) {
+      const int u = u0 + static_cast<int>(r) % (u1 - u0), v = v0 + static_cast<int>(r) / (u1 - u0);
+      family.first[index(u, v) + 1] = found[r].intervals().size();
     }
   });
   std::partial_sum(family.first.begin(), family.first.end(), family.first.begin());
   family.intervals.resize(family.first.back());
-  tbb::parallel_for(0, nv, [&](int v) {
-    const std::vector<Interval>& row = rows[static_cast<std::size_t>(v)];
-    std::copy(row.begin(), row.end(),
-              family.intervals.begin() + static_cast<std::ptrdiff_t>(family.first[index(0, v)]));
+  tbb::parallel_for(0, tiles_u * tiles_v, [&](int tile) {
+    const int u0 = 1 + kTile * (tile % tiles_u), v0 = 1 + kTile * (tile / tiles_u);
+    const int width = std::min(u0 + kTile, nu - 1) - u0;
+    const auto& found = tiles[static_cast<std::size_t>(tile)];
+    for (std::size_t r = 0; r < found.size(); ++r) {
+      const int u = u0 + static_cast<int>(r) % width, v = v0 + static_cast<int>(r) / width;
+      std::ranges::copy(
+          found[r].intervals(),
+          family.intervals.begin() + static_cast<std::ptrdiff_t>(family.first[index(u, v)]));
+    }
   });
   return family;
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <optional>
 
 #include "stock/mesh/surface_mesh_cells.hpp"
 #include "stock/mesh/surface_mesh_crossings.hpp"
@@ -24,6 +26,36 @@ constexpr double kLeaveCell = 0.8;
 // Vertices closer than this, in pitches, would make needles of the triangles between them.
 constexpr double kTooClose = 0.05;
 
+// Cells of a block, in each direction, whose rays share what may have cut there.
+constexpr int kBlock = 8;
+// From a cell to where the rays of its vertex end, in pitches.
+constexpr double kAround = kLeaveCell + 0.5;
+
+// What may have cut around blocks of cells, found when first asked for.
+class Neighbourhood {
+ public:
+  Neighbourhood(SolidView solid, const DexelGrid& grid) : solid_(solid), grid_(grid) {}
+
+  // Around the block that begins at the first two and holds the third; null: the solid does not
+  // know.
+  [[nodiscard]] const cutter::SweptNear* of(const std::array<int, 3>& place) {
+    const int floor = place[2] - ((place[2] % kBlock) + kBlock) % kBlock;
+    if (auto found = known_.find(floor); found != known_.end()) {
+      return found->second ? &*found->second : nullptr;
+    }
+    const double half = 0.5 * kBlock;
+    const Vec3 centre = grid_.node(place[0], place[1], floor) + Vec3::Constant(half * grid_.pitch);
+    const double radius = std::sqrt(3.0) * (half + kAround) * grid_.pitch;
+    const auto& added = known_.emplace(floor, solid_.near(centre, radius)).first->second;
+    return added ? &*added : nullptr;
+  }
+
+ private:
+  SolidView solid_;
+  const DexelGrid& grid_;
+  std::map<int, std::optional<cutter::SweptNear>> known_{};  // by the lowest level of the block
+};
+
 class VertexPlacer {
  public:
   VertexPlacer(SolidView solid, const Crossings& crossings, const Cells& cells, SurfaceMesh& mesh)
@@ -34,26 +66,33 @@ class VertexPlacer {
   }
 
   void place_all() {
-    const int rows = crossings_.grid().nodes[1] - 1;
-    std::vector<std::vector<Astray>> astray(static_cast<std::size_t>(rows));
-    tbb::parallel_for(0, rows, [&](int j) {
-      for (int i = 0; i < crossings_.grid().nodes[0] - 1; ++i) {
-        for (const Cell& cell : cells_.column(i, j)) {
-          const std::array<int, 3> place{i, j, cell.level};
-          for (std::uint32_t piece = 0; piece < cell.piece_count; ++piece) {
-            place_piece(place, cell, piece, kLeaveCell);
-            if (cell_of(mesh_.vertices[cell.first_vertex + piece]) != place) {
-              astray[static_cast<std::size_t>(j)].push_back({place, piece});
+    const int across_x = crossings_.grid().nodes[0] - 1, across_y = crossings_.grid().nodes[1] - 1;
+    const int blocks_x = (across_x + kBlock - 1) / kBlock,
+              blocks_y = (across_y + kBlock - 1) / kBlock;
+    std::vector<std::vector<Astray>> astray(static_cast<std::size_t>(blocks_x * blocks_y));
+    tbb::parallel_for(0, blocks_x * blocks_y, [&](int block) {
+      Neighbourhood around(solid_, crossings_.grid());
+      const int i0 = kBlock * (block % blocks_x), j0 = kBlock * (block / blocks_x);
+      for (int j = j0; j < std::min(j0 + kBlock, across_y); ++j) {
+        for (int i = i0; i < std::min(i0 + kBlock, across_x); ++i) {
+          for (const Cell& cell : cells_.column(i, j)) {
+            const std::array<int, 3> place{i, j, cell.level};
+            const cutter::SweptNear* near = around.of({i0, j0, cell.level});
+            for (std::uint32_t piece = 0; piece < cell.piece_count; ++piece) {
+              place_piece(place, cell, piece, kLeaveCell, near);
+              if (cell_of(mesh_.vertices[cell.first_vertex + piece]) != place) {
+                astray[static_cast<std::size_t>(block)].push_back({place, piece});
+              }
             }
           }
         }
       }
     });
     // A corner that two cells claim belongs to the one that it is in, or else to the last.
-    for (const auto& row : astray) {
-      for (const auto& [place, piece] : row) {
+    for (const auto& of_block : astray) {
+      for (const auto& [place, piece] : of_block) {
         const Cell& cell = cells_.at(place[0], place[1], place[2]);
-        if (too_close(cell.first_vertex + piece)) place_piece(place, cell, piece, 0.0);
+        if (too_close(cell.first_vertex + piece)) place_piece(place, cell, piece, 0.0, nullptr);
       }
     }
   }
@@ -71,7 +110,7 @@ class VertexPlacer {
   }
 
   void place_piece(const std::array<int, 3>& place, const Cell& cell, std::uint32_t piece,
-                   double leave) {
+                   double leave, const cutter::SweptNear* near) {
     const DexelGrid& grid = crossings_.grid();
     const auto [i, j, k] = place;
     std::array<HermiteSample, 12> samples;
@@ -84,7 +123,7 @@ class VertexPlacer {
       samples[count++] = crossings_.sample(at, axis);
     }
     const BoundingBox box{grid.node(i, j, k), grid.node(i + 1, j + 1, k + 1)};
-    const auto placed = place_vertex(solid_, std::span(samples).first(count), box, leave);
+    const auto placed = place_vertex(solid_, std::span(samples).first(count), box, leave, near);
     // Keeping to the cell is not worth leaving the surface.
     if (leave == 0.0 && placed.kind == VertexKind::averaged) return;
     const std::uint32_t vertex = cell.first_vertex + piece;

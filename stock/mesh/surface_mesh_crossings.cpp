@@ -83,7 +83,7 @@ HermiteSample surface_at(SolidView solid, const Ray& ray, const End& end) {
     return {ray.at(end.s), end.leaves ? ray.direction : Vec3(-ray.direction)};
   }
   const SurfacePoint found = solid.surface_at(ray, end.s, end.tag);
-  return {ray.at(end.s), found.normal};
+  return {ray.at(end.s), found.normal, end.tag};
 }
 
 // The end of the wanted kind between s = lo and hi that is next to the inside node.

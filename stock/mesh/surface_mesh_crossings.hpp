@@ -24,6 +24,7 @@ namespace frustum::stock {
 struct HermiteSample {
   Vec3 point = Vec3::Zero();
   Vec3 normal = Vec3::UnitZ();
+  EndTag tag = -1;  // what made the surface there, if it is known
 };
 
 // An edge from node (i, j, level) one step along its axis.

@@ -96,10 +96,10 @@ Vec3 meet(Samples samples, const BoundingBox& allowed) {
 // The samples again, but closer to the vertex; a sample keeps its place if the surface found there
 // belongs to another face.
 void draw_closer(SolidView solid, std::span<HermiteSample> samples, const Vec3& vertex,
-                 double reach) {
+                 double reach, const cutter::SweptNear* near) {
   for (HermiteSample& sample : samples) {
     const Vec3 at = vertex + kCloser * (sample.point - vertex);
-    const auto found = nearest_surface(solid, at, sample.normal, reach);
+    const auto found = nearest_surface(solid, at, sample.normal, reach, {{&sample.tag, 1}, near});
     // Within a cell a face turns by less than 60 degrees, or the pitch is too coarse for it anyway.
     if (found && found->normal.dot(sample.normal) > 0.5) sample = *found;
   }
@@ -112,8 +112,16 @@ struct Answer {
   bool settled = false;                // it is where, and as, the samples say
 };
 
+// What made the sample that is next to a point.
+EndTag nearest_tag(Samples samples, const Vec3& point) {
+  const auto nearest = std::ranges::min_element(samples, {}, [&](const HermiteSample& sample) {
+    return (sample.point - point).squaredNorm();
+  });
+  return nearest->tag;
+}
+
 Answer solve(SolidView solid, std::span<HermiteSample> samples, const BoundingBox& allowed,
-             double pitch) {
+             double pitch, const cutter::SweptNear* near) {
   Vec3 vertex = mean_point(samples);
   bool smooth = is_smooth(samples);
   for (int round = 0; round < kRounds && !smooth; ++round) {
@@ -121,7 +129,7 @@ Answer solve(SolidView solid, std::span<HermiteSample> samples, const BoundingBo
     vertex = meet(samples, allowed);
     // Flat faces meet where they met before, within rounding; nothing more to learn.
     if (round > 0 && (vertex - before).norm() < 1e-12 * pitch) break;
-    draw_closer(solid, samples, vertex, kReach * pitch);
+    draw_closer(solid, samples, vertex, kReach * pitch, near);
     smooth = is_smooth(samples);
   }
   if (!smooth) vertex = meet(samples, allowed);
@@ -130,7 +138,9 @@ Answer solve(SolidView solid, std::span<HermiteSample> samples, const BoundingBo
     answer.placed.normal = samples.front().normal;
     return answer;
   }
-  answer.found = nearest_surface(solid, vertex, answer.placed.normal, 2.0 * kReach * pitch);
+  const EndTag tag = nearest_tag(samples, vertex);
+  answer.found =
+      nearest_surface(solid, vertex, answer.placed.normal, 2.0 * kReach * pitch, {{&tag, 1}, near});
   if (!answer.found || !contains(allowed, answer.found->point)) return answer;
   // An edge vertex is on its edge already but for what the curvature of its faces left over.
   const bool meets = (answer.found->point - vertex).norm() < 1e-3 * pitch;
@@ -144,13 +154,20 @@ Answer solve(SolidView solid, std::span<HermiteSample> samples, const BoundingBo
 }  // namespace
 
 std::optional<HermiteSample> nearest_surface(SolidView solid, const Vec3& point, const Vec3& normal,
-                                             double reach) {
+                                             double reach,
+                                             const cutter::SweptCutter::Likely& likely) {
   // Nearly always the way there from outside is free.
   const Ray inwards{point + reach * normal, -normal};
-  const auto met = solid.first_surface(inwards, {0.0, 2.0 * reach});
+  cutter::SweptCutter::Likely known = likely;
+  if (known.near != nullptr &&
+      !(known.near->holds(inwards.origin) && known.near->holds(inwards.at(2.0 * reach)))) {
+    known.near = nullptr;
+  }
+  const auto met = solid.first_surface(inwards, {0.0, 2.0 * reach}, known);
   constexpr double kFacing = 0.5;  // cosine of 60 deg: else something else is in the way
   if (met && met->normal.dot(normal) > kFacing) {
-    return HermiteSample{inwards.at(met->s), met->normal};
+    return HermiteSample{inwards.at(met->s), met->normal,
+                         met->segment ? static_cast<EndTag>(*met->segment) : EndTag{-1}};
   }
   const Ray ray{point - reach * normal, normal};
   const IntervalSet material = solid.material_along(ray, {0.0, 2.0 * reach});
@@ -160,11 +177,12 @@ std::optional<HermiteSample> nearest_surface(SolidView solid, const Vec3& point,
     if (best == nullptr || std::abs(piece.hi - reach) < std::abs(best->hi - reach)) best = &piece;
   }
   if (best == nullptr) return std::nullopt;
-  return HermiteSample{ray.at(best->hi), solid.surface_at(ray, best->hi, best->hi_tag).normal};
+  return HermiteSample{ray.at(best->hi), solid.surface_at(ray, best->hi, best->hi_tag).normal,
+                       best->hi_tag};
 }
 
 PlacedVertex place_vertex(SolidView solid, std::span<const HermiteSample> samples,
-                          const BoundingBox& cell, double leave) {
+                          const BoundingBox& cell, double leave, const cutter::SweptNear* near) {
   const double pitch = cell.max.x() - cell.min.x();
   const Vec3 spare = Vec3::Constant(leave * pitch);
   const BoundingBox allowed{cell.min - spare, cell.max + spare};
@@ -175,7 +193,7 @@ PlacedVertex place_vertex(SolidView solid, std::span<const HermiteSample> sample
   std::optional<PlacedVertex> first;
   for (std::size_t hidden = 0; hidden <= kHiddenFaces; ++hidden) {
     std::array<HermiteSample, kMostSamples> drawn = known;
-    const Answer answer = solve(solid, std::span(drawn).first(count), allowed, pitch);
+    const Answer answer = solve(solid, std::span(drawn).first(count), allowed, pitch, near);
     if (answer.settled) return answer.placed;
     if (!first) first = answer.placed;
     if (!answer.found) break;

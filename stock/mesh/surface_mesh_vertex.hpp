@@ -31,12 +31,15 @@ struct PlacedVertex {
   VertexKind kind = VertexKind::averaged;
 };
 
+// `near`: what may have cut around the cell, if that is known. Rays that leave its ball do without.
 [[nodiscard]] PlacedVertex place_vertex(SolidView solid, std::span<const HermiteSample> samples,
-                                        const BoundingBox& cell, double leave);
+                                        const BoundingBox& cell, double leave,
+                                        const cutter::SweptNear* near = nullptr);
 
 // The surface that faces along `normal` (unit), at most `reach` away along it: the first that a
 // probe meets which comes from outside, or, if that is another face, the one next to `point`.
-[[nodiscard]] std::optional<HermiteSample> nearest_surface(SolidView solid, const Vec3& point,
-                                                           const Vec3& normal, double reach);
+[[nodiscard]] std::optional<HermiteSample> nearest_surface(
+    SolidView solid, const Vec3& point, const Vec3& normal, double reach,
+    const cutter::SweptCutter::Likely& likely = {});
 
 }  // namespace frustum::stock

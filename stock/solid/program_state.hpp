@@ -86,11 +86,23 @@ class WorkpieceAt {
   [[nodiscard]] IntervalSet material_along(const Ray& ray, RaySpan span) const {
     return workpiece_->material_along(ray, span, program_state_.segments);
   }
+  [[nodiscard]] std::vector<IntervalSet> material_along_all(std::span<const Ray> rays,
+                                                            std::size_t row, RaySpan span) const {
+    return workpiece_->material_along_all(rays, row, span, program_state_.segments);
+  }
   [[nodiscard]] SurfacePoint surface_at(const Ray& ray, double s, EndTag tag) const {
     return workpiece_->surface_at(ray, s, tag);
   }
   [[nodiscard]] std::optional<SurfacePoint> first_surface(const Ray& ray, RaySpan span) const {
     return workpiece_->first_surface(ray, span, program_state_.segments);
+  }
+  [[nodiscard]] std::optional<SurfacePoint> first_surface(
+      const Ray& ray, RaySpan span, const cutter::SweptCutter::Likely& likely) const {
+    return workpiece_->first_surface(ray, span, likely, program_state_.segments);
+  }
+  [[nodiscard]] cutter::SweptNear near(const Vec3& centre, double radius,
+                                       const cutter::SweptNear* within = nullptr) const {
+    return workpiece_->removed().near(centre, radius, program_state_.segments, within);
   }
   [[nodiscard]] const Workpiece& workpiece() const { return *workpiece_; }
   [[nodiscard]] const ProgramState& program_state() const { return program_state_; }

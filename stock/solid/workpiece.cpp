@@ -24,6 +24,24 @@ double facet_bound(const Blank& blank) {
   return std::holds_alternative<MeshShape>(blank.shape()) ? 1e-9 : 0.0;  // mm
 }
 
+IntervalSet uncut_along(const Blank& blank, const Ray& ray, RaySpan span) {
+  const IntervalSet uncut = blank.along(ray, span);
+  std::vector<Interval> chords(uncut.intervals().begin(), uncut.intervals().end());
+  for (Interval& chord : chords) {
+    chord.lo_tag = tag_of_face(chord.lo_tag);
+    chord.hi_tag = tag_of_face(chord.hi_tag);
+  }
+  return IntervalSet(std::move(chords));
+}
+
+// The sweeps are asked a little beyond the blank, so that a cut flush with its face leaves no skin;
+// nowhere beside it.
+RaySpan asked_of(const IntervalSet& uncut) {
+  constexpr double kBeyond = 1e-3;  // mm
+  if (uncut.empty()) return {1.0, 0.0};
+  return {uncut.intervals().front().lo - kBeyond, uncut.intervals().back().hi + kBeyond};
+}
+
 }  // namespace
 
 Workpiece::Workpiece(Blank blank, cutter::SweptCutter removed)
@@ -35,18 +53,27 @@ IntervalSet Workpiece::material_along(const Ray& ray, RaySpan span) const {
 
 IntervalSet Workpiece::material_along(const Ray& ray, RaySpan span,
                                       std::uint32_t first_excluded_segment) const {
-  const IntervalSet uncut = blank_.along(ray, span);
+  IntervalSet uncut = uncut_along(blank_, ray, span);
   if (uncut.empty()) return uncut;
-  std::vector<Interval> chords(uncut.intervals().begin(), uncut.intervals().end());
-  for (Interval& chord : chords) {
-    chord.lo_tag = tag_of_face(chord.lo_tag);
-    chord.hi_tag = tag_of_face(chord.hi_tag);
+  return uncut.minus(removed_.along(ray, asked_of(uncut), first_excluded_segment));
+}
+
+std::vector<IntervalSet> Workpiece::material_along_all(std::span<const Ray> rays, std::size_t row,
+                                                       RaySpan span,
+                                                       std::uint32_t first_excluded_segment) const {
+  std::vector<IntervalSet> all;
+  std::vector<RaySpan> asked;
+  all.reserve(rays.size());
+  asked.reserve(rays.size());
+  for (const Ray& ray : rays) {
+    all.push_back(uncut_along(blank_, ray, span));
+    asked.push_back(asked_of(all.back()));
   }
-  // The sweeps are asked a little beyond the blank, so that a cut flush with its face leaves no
-  // skin.
-  constexpr double kBeyond = 1e-3;  // mm
-  const RaySpan asked{chords.front().lo - kBeyond, chords.back().hi + kBeyond};
-  return IntervalSet(std::move(chords)).minus(removed_.along(ray, asked, first_excluded_segment));
+  const auto removed = removed_.along_all(rays, asked, row, first_excluded_segment);
+  for (std::size_t r = 0; r < rays.size(); ++r) {
+    if (!removed[r].empty()) all[r] = all[r].minus(removed[r]);
+  }
+  return all;
 }
 
 SurfacePoint Workpiece::surface_at(const Ray& ray, double s, EndTag tag) const {
@@ -81,9 +108,16 @@ SurfacePoint Workpiece::surface_point(const Ray& ray, const cutter::SweepContact
 
 std::optional<SurfacePoint> Workpiece::first_surface(const Ray& ray, RaySpan span,
                                                      std::uint32_t first_excluded_segment) const {
+  return first_surface(ray, span, {}, first_excluded_segment);
+}
+
+std::optional<SurfacePoint> Workpiece::first_surface(const Ray& ray, RaySpan span,
+                                                     const cutter::SweptCutter::Likely& likely,
+                                                     std::uint32_t first_excluded_segment) const {
   const IntervalSet uncut = blank_.along(ray, span);
   for (const Interval& chord : uncut.intervals()) {
-    const auto contact = removed_.end_of_void(ray, chord.lo, chord.hi, first_excluded_segment);
+    const auto contact =
+        removed_.end_of_void(ray, chord.lo, chord.hi, likely, first_excluded_segment);
     if (!contact) {
       if (chord.lo_tag == -1) return std::nullopt;  // the span begins inside the material
       return surface_at(ray, chord.lo, tag_of_face(chord.lo_tag));

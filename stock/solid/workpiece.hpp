@@ -14,6 +14,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "core/interval_set.hpp"
 #include "core/pose.hpp"
@@ -50,12 +52,28 @@ class Workpiece {
   // As above, but only the sweeps of segments before `first_excluded_segment` have been removed.
   [[nodiscard]] IntervalSet material_along(const Ray& ray, RaySpan span,
                                            std::uint32_t first_excluded_segment) const;
+  // The same of parallel rays, bit for bit: in rows of `row`, neighbours near each other, so that
+  // they share their search.
+  [[nodiscard]] std::vector<IntervalSet> material_along_all(
+      std::span<const Ray> rays, std::size_t row, RaySpan span,
+      std::uint32_t first_excluded_segment = cutter::SweptCutter::kAll) const;
   // The surface at an interval end: s and tag as found in material_along() of the same ray.
   [[nodiscard]] SurfacePoint surface_at(const Ray& ray, double s, EndTag tag) const;
   // Where the ray first enters material after span.lo; nothing when it starts inside or meets none.
   [[nodiscard]] std::optional<SurfacePoint> first_surface(
       const Ray& ray, RaySpan span,
       std::uint32_t first_excluded_segment = cutter::SweptCutter::kAll) const;
+
+  // The same, begun with what is likely to have made it.
+  [[nodiscard]] std::optional<SurfacePoint> first_surface(
+      const Ray& ray, RaySpan span, const cutter::SweptCutter::Likely& likely,
+      std::uint32_t first_excluded_segment = cutter::SweptCutter::kAll) const;
+
+  // What may have cut within `radius` of `centre`; `within`: of a ball around this one.
+  [[nodiscard]] cutter::SweptNear near(const Vec3& centre, double radius,
+                                       const cutter::SweptNear* within = nullptr) const {
+    return removed_.near(centre, radius, cutter::SweptCutter::kAll, within);
+  }
 
   [[nodiscard]] const Blank& blank() const { return blank_; }
   [[nodiscard]] const cutter::SweptCutter& removed() const { return removed_; }

@@ -1,0 +1,102 @@
+#include "cutter/search/path_climb.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "core/constants.hpp"
+
+namespace frustum::cutter {
+namespace {
+
+// More would be another pass of the cutter.
+constexpr std::int64_t kFarthest = 256;
+
+class Climb {
+ public:
+  Climb(const RayQuestion& question, const Body& body, std::uint32_t segment, bool leaving)
+      : question_(question), body_(body), segment_(segment), leaving_(leaving) {}
+
+  [[nodiscard]] std::uint32_t top() const {
+    const double here = depth(0), next = depth(1);
+    if (here == -kInfinity && next == -kInfinity) return segment_;
+    // Poses `at` and `beyond` in the sense of the climb; the best is between `from` and `beyond`.
+    const std::int64_t sense = next > here ? 1 : -1;
+    std::int64_t from = next > here ? 0 : 1, at = next > here ? 1 : 0;
+    double best = std::max(here, next);
+    std::int64_t step = 1;
+    for (;;) {
+      const std::int64_t beyond = at + sense * step;
+      const double there = depth(beyond);
+      if (!(there > best)) return narrowed(from, at, best, beyond);
+      from = at;
+      at = beyond;
+      best = there;
+      step *= 2;
+    }
+  }
+
+ private:
+  // The segment beside the best of the poses from a to c; b is between them and better.
+  [[nodiscard]] std::uint32_t narrowed(std::int64_t a, std::int64_t b, double best,
+                                       std::int64_t c) const {
+    while (std::abs(c - a) > 2) {
+      const bool upper = std::abs(c - b) > std::abs(b - a);
+      const std::int64_t middle = upper ? (b + c) / 2 : (a + b) / 2;
+      if (middle == b) break;
+      const double there = depth(middle);
+      if (there > best) {
+        (upper ? a : c) = b;
+        b = middle;
+        best = there;
+      } else {
+        (upper ? c : a) = middle;
+      }
+    }
+    const std::int64_t after = depth(b + 1) > depth(b - 1) ? b : b - 1;
+    return segment_at(after).value_or(segment_at(b).value_or(segment_));
+  }
+
+  // Counted from the segment on; nothing where the path of this tool does not run on.
+  [[nodiscard]] std::optional<std::uint32_t> segment_at(std::int64_t offset) const {
+    const auto& segments = question_.path->segments;
+    const std::int64_t i = static_cast<std::int64_t>(segment_) + offset;
+    const auto end = std::min<std::int64_t>(static_cast<std::int64_t>(segments.size()),
+                                            question_.first_excluded);
+    if (i < 0 || i >= end || std::abs(offset) > kFarthest) return std::nullopt;
+    const auto& here = segments[segment_];
+    const auto& there = segments[static_cast<std::size_t>(i)];
+    const auto& blocks = question_.path->blocks;
+    const bool runs_on = static_cast<std::int64_t>(there.first_pose) ==
+                             static_cast<std::int64_t>(here.first_pose) + offset &&
+                         blocks[there.block].tool == blocks[here.block].tool;
+    if (!runs_on) return std::nullopt;
+    return static_cast<std::uint32_t>(i);
+  }
+
+  // How far the cutter reaches at a pose, counted from the first of the segment.
+  [[nodiscard]] double depth(std::int64_t offset) const {
+    if (!segment_at(offset) && !segment_at(offset - 1)) return -kInfinity;
+    const auto pose = static_cast<std::size_t>(
+        static_cast<std::int64_t>(question_.path->segments[segment_].first_pose) + offset);
+    double most = -kInfinity;
+    for (const Profile& part : body_.parts()) {
+      const auto chord = part.chord(question_.path->poses[pose], question_.ray);
+      if (chord) most = std::max(most, leaving_ ? chord->hi : -chord->lo);
+    }
+    return most;
+  }
+
+  const RayQuestion& question_;
+  const Body& body_;
+  std::uint32_t segment_;
+  bool leaving_;
+};
+
+}  // namespace
+
+std::uint32_t climbed(const RayQuestion& question, const Body& body, std::uint32_t segment,
+                      bool leaving) {
+  return Climb(question, body, segment, leaving).top();
+}
+
+}  // namespace frustum::cutter

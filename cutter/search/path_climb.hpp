@@ -1,0 +1,21 @@
+// From a segment that makes the end of a ray's neighbour to the one that likely makes its own.
+//
+// Model    : along the path from pose to pose, in growing steps and then halves, as long as the
+//            cutter reaches farther along the ray. A guess: what it says is solved and proven by
+//            the search
+// Units    : mm along the ray; frame: workpiece
+// Errors   : none; the segment itself where its cutter does not meet the ray
+// Source   : ours
+#pragma once
+
+#include <cstdint>
+
+#include "cutter/search/ray_search.hpp"
+
+namespace frustum::cutter {
+
+// `leaving`: what is covered is before the end, else after it.
+[[nodiscard]] std::uint32_t climbed(const RayQuestion& question, const Body& body,
+                                    std::uint32_t segment, bool leaving);
+
+}  // namespace frustum::cutter

@@ -1,0 +1,381 @@
+#include "cutter/search/ray_tile.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "core/constants.hpp"
+#include "cutter/search/group_search.hpp"
+#include "cutter/search/path_climb.hpp"
+#include "cutter/search/whole_sweep.hpp"
+#include "cutter/sweep/tangent_plane.hpp"
+
+namespace frustum::cutter {
+namespace {
+
+// Bounds of groups hold but for rounding (mm); this is a hundred times that.
+constexpr double kSurely = 1e-10;
+// The ends of an anchor count for so much less (mm): more than a solution leaves of an end.
+constexpr double kInward = 1e-6;
+// Planes that a ray meets at a smaller cosine bound badly.
+constexpr double kGrazingCover = 0.02;
+
+// Rays [u0, u1) of rows [v0, v1).
+struct Rectangle {
+  std::size_t u0 = 0, u1 = 0, v0 = 0, v1 = 0;
+};
+
+using Corners = std::array<Ray, 4>;
+
+// The rays of a tile: between four corner rays, whose origins are in one plane across them.
+struct Tile {
+  Corners corners{};
+  RaySpan span{};  // of all, along the corner rays
+  Box box{};
+  double size = 0.0;  // mm across
+};
+
+// A cutter that covers all rays of a tile beyond the span. Groups that are left aside for it may
+// hold its own segment: so it is asked itself.
+struct Anchor {
+  const Profile* part = nullptr;
+  ToolPose pose{};
+  std::uint32_t segment = 0;
+  std::uint32_t section = 0;
+  double t = 0.0;
+};
+
+// One end of what a cutter at a pose covers, on all rays of a tile.
+struct HalfCover {
+  std::array<Chord, 4> chords{};  // of the corners
+  Vec3 normal = Vec3::Zero();
+  double least = 0.0;  // no ray of the tile leaves the cutter before this height along the normal
+  bool is_beyond = false;  // the end is beyond the span on all rays
+  Anchor anchor{};
+};
+
+// What is covered for certain on all rays of a tile: between two planes.
+struct Cover {
+  HalfCover lo{}, hi{};
+};
+
+enum class Verdict : std::uint8_t { aside, level, open };
+
+class TileSearch {
+ public:
+  TileSearch(const TileQuestion& question, const ToolSweep& sweep,
+             std::span<std::vector<SweptInterval>> swept)
+      : question_(question),
+        sweep_(sweep),
+        groups_(sweep.tree.groups()),
+        swept_(swept),
+        done_(question.rays.size(), 0) {}
+
+  void run() {
+    if (groups_.empty() || question_.rays.empty()) return;
+    lists_.assign(1, 0U);
+    const Rectangle all{0, question_.row, 0, question_.rays.size() / question_.row};
+    divide(all, 0, std::nullopt);
+  }
+
+ private:
+  [[nodiscard]] std::size_t index(std::size_t u, std::size_t v) const {
+    return v * question_.row + u;
+  }
+  [[nodiscard]] bool is_asked(std::size_t r) const {
+    return question_.spans[r].lo <= question_.spans[r].hi;
+  }
+
+  // A ray of the tile that is asked and not answered yet, the nearer to the middle the better.
+  [[nodiscard]] std::optional<std::size_t> middle_of(const Rectangle& at) const {
+    const std::size_t u = (at.u0 + at.u1) / 2, v = (at.v0 + at.v1) / 2;
+    std::optional<std::size_t> best;
+    std::size_t best_off = 0;
+    for (std::size_t y = at.v0; y < at.v1; ++y) {
+      for (std::size_t x = at.u0; x < at.u1; ++x) {
+        const std::size_t r = index(x, y);
+        if (done_[r] != 0 || !is_asked(r)) continue;
+        const std::size_t off = (x > u ? x - u : u - x) + (y > v ? y - v : v - y);
+        if (best && off >= best_off) continue;
+        best = r;
+        best_off = off;
+      }
+    }
+    return best;
+  }
+
+  [[nodiscard]] Tile tile_of(const Rectangle& at, const Ray& frame) const {
+    const Vec3 d = frame.direction;
+    const Vec3 e1 = d.unitOrthogonal(), e2 = d.cross(e1);
+    double lo1 = kInfinity, hi1 = -kInfinity, lo2 = kInfinity, hi2 = -kInfinity;
+    Tile tile{.span = {kInfinity, -kInfinity}};
+    for (std::size_t y = at.v0; y < at.v1; ++y) {
+      for (std::size_t x = at.u0; x < at.u1; ++x) {
+        const std::size_t r = index(x, y);
+        if (done_[r] != 0 || !is_asked(r)) continue;
+        const Vec3 off = question_.rays[r].origin - frame.origin;
+        const double a = e1.dot(off), b = e2.dot(off), ahead = d.dot(off);
+        lo1 = std::min(lo1, a);
+        hi1 = std::max(hi1, a);
+        lo2 = std::min(lo2, b);
+        hi2 = std::max(hi2, b);
+        tile.span.lo = std::min(tile.span.lo, question_.spans[r].lo + ahead);
+        tile.span.hi = std::max(tile.span.hi, question_.spans[r].hi + ahead);
+      }
+    }
+    // Rounding of the corners.
+    const auto corner = [&](double a, double b) { return Ray{frame.origin + a * e1 + b * e2, d}; };
+    lo1 -= kSurely;
+    lo2 -= kSurely;
+    hi1 += kSurely;
+    hi2 += kSurely;
+    tile.corners = {corner(lo1, lo2), corner(hi1, lo2), corner(lo1, hi2), corner(hi1, hi2)};
+    tile.size = std::hypot(hi1 - lo1, hi2 - lo2);
+    tile.box.min = Vec3::Constant(kInfinity);
+    tile.box.max = Vec3::Constant(-kInfinity);
+    for (const Ray& c : tile.corners) {
+      for (const double s : {tile.span.lo, tile.span.hi}) {
+        tile.box.min = tile.box.min.cwiseMin(c.at(s));
+        tile.box.max = tile.box.max.cwiseMax(c.at(s));
+      }
+    }
+    return tile;
+  }
+
+  // The groups of lists_ from `first` on are what is open for this tile.
+  void divide(const Rectangle& at, std::size_t first, std::optional<std::size_t> neighbour) {
+    const auto middle = middle_of(at);
+    if (!middle) return;
+    std::size_t last = lists_.size();
+    const std::size_t count = (at.u1 - at.u0) * (at.v1 - at.v0);
+    if (!neighbour) {
+      // The first of its tile: the whole tree, but for what is beside.
+      filter(tile_of(at, question_.rays[*middle]), first, last);
+      first = last;
+      last = lists_.size();
+    }
+    if (first == last && anchors_.empty()) return;
+    solve(*middle, first, last, neighbour);
+    done_[*middle] = 1;
+    if (count == 1) return;
+    constexpr std::size_t kFew = 2;
+    const std::size_t anchored = anchors_.size();
+    if (count > kFew && middle_of(at)) {
+      const Tile tile = tile_of(at, question_.rays[*middle]);
+      find_covers(tile, *middle);
+      filter(tile, first, last);
+      first = last;
+    }
+    const std::size_t u = (at.u0 + at.u1 + 1) / 2, v = (at.v0 + at.v1 + 1) / 2;
+    for (const Rectangle& part : {Rectangle{at.u0, u, at.v0, v}, Rectangle{u, at.u1, at.v0, v},
+                                  Rectangle{at.u0, u, v, at.v1}, Rectangle{u, at.u1, v, at.v1}}) {
+      const std::size_t kept = lists_.size();
+      divide(part, first, middle);
+      lists_.resize(kept);
+    }
+    anchors_.resize(anchored);
+  }
+
+  // One ray, from the answer of its neighbour on.
+  void solve(std::size_t r, std::size_t first, std::size_t last,
+             const std::optional<std::size_t>& neighbour) {
+    const RayQuestion question{question_.path, question_.rays[r], question_.spans[r],
+                               question_.first_excluded};
+    const EndPlanes planes(question, *sweep_.body);
+    WholeSweep goal(question, sweep_, planes, swept_[r]);
+    GroupSearch search(question, sweep_, goal);
+    for (const Anchor& anchor : anchors_) {
+      const auto chord = anchor.part->chord(anchor.pose, question.ray);
+      if (!chord) continue;
+      // Its ends within the span are its segment's, which finds them itself.
+      goal.take({{chord->lo + kInward, anchor.segment, anchor.section, anchor.t, chord->lo_face},
+                 {chord->hi - kInward, anchor.segment, anchor.section, anchor.t, chord->hi_face}});
+    }
+    if (neighbour) {
+      hints_.clear();
+      for (const SweptInterval& c : swept_[*neighbour]) {
+        for (const bool leaving : {false, true}) {
+          const SweptIntervalEnd& end = leaving ? c.hi : c.lo;
+          if (body_of(end) != sweep_.body) continue;
+          const std::uint32_t likely = climbed(question, *sweep_.body, end.segment, leaving);
+          if (std::ranges::find(hints_, likely) != hints_.end()) continue;
+          hints_.push_back(likely);
+          search.solve_parts(likely);
+        }
+      }
+    }
+    search.run(std::span(lists_).subspan(first, last - first));
+    while (const auto segment = goal.unsolved()) {
+      search.solve_parts(*segment);
+      goal.settle(*segment);
+    }
+    swept_[r] = goal.swept();
+  }
+
+  [[nodiscard]] const Body* body_of(const SweptIntervalEnd& end) const {
+    return question_.body_of_block[question_.path->segments[end.segment].block];
+  }
+
+  // The cutter where it makes this end of the middle ray, seen from all rays of the tile.
+  [[nodiscard]] std::optional<HalfCover> half_cover(const Tile& tile, const Ray& ray,
+                                                    const SweptIntervalEnd& end,
+                                                    bool leaving) const {
+    if (end.section == kConcaveSurface) return std::nullopt;
+    const Body& body = *body_of(end);
+    const Profile& part = body.sections()[end.section];
+    const SegmentMotion motion(*question_.path, question_.path->segments[end.segment],
+                               body.reach());
+    const ToolPose pose = motion.at(end.t);
+    const auto known = part.chord(pose, ray);
+    if (!known) return std::nullopt;
+    HalfCover cover;
+    const TangentPlane plane(part, pose, ray, *known, leaving);
+    if (plane.along < kGrazingCover) return std::nullopt;
+    cover.anchor = {&part, pose, end.segment, end.section, end.t};
+    cover.normal = plane.normal_across(pose.axis);
+    cover.least = kInfinity;
+    cover.is_beyond = true;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto chord = part.chord(pose, tile.corners[k]);
+      if (!chord) return std::nullopt;
+      cover.chords[k] = *chord;
+      const double s = leaving ? chord->hi : chord->lo;
+      cover.least = std::min(cover.least, cover.normal.dot(tile.corners[k].at(s)));
+      cover.is_beyond = cover.is_beyond && (leaving ? s >= tile.span.hi + 2.0 * kInward
+                                                    : s <= tile.span.lo - 2.0 * kInward);
+    }
+    return cover;
+  }
+
+  void find_covers(const Tile& tile, std::size_t middle) {
+    covers_.clear();
+    const Ray& ray = question_.rays[middle];
+    for (const SweptInterval& c : swept_[middle]) {
+      const auto lo = half_cover(tile, ray, c.lo, false), hi = half_cover(tile, ray, c.hi, true);
+      if (lo && hi && overlap(*lo, *hi)) {
+        add_cover({*lo, *hi});
+        continue;
+      }
+      for (const SweptIntervalEnd& end : {c.lo, c.hi}) {
+        const auto enters = half_cover(tile, ray, end, false);
+        const auto leaves = half_cover(tile, ray, end, true);
+        if (enters && leaves) add_cover({*enters, *leaves});
+      }
+    }
+  }
+
+  void add_cover(const Cover& cover) {
+    covers_.push_back(cover);
+    // What other tools cover is known of every ray.
+    const auto is_own = [&](const Anchor& anchor) {
+      const std::uint32_t block = question_.path->segments[anchor.segment].block;
+      return question_.body_of_block[block] == sweep_.body;
+    };
+    for (const HalfCover& half : {cover.lo, cover.hi}) {
+      if (half.is_beyond && is_own(half.anchor)) anchors_.push_back(half.anchor);
+    }
+  }
+
+  // Chords of two convex cutters that overlap at all corners do so on all rays between.
+  [[nodiscard]] static bool overlap(const HalfCover& a, const HalfCover& b) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (a.chords[k].lo > b.chords[k].hi - 4.0 * kInward ||
+          b.chords[k].lo > a.chords[k].hi - 4.0 * kInward) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  [[nodiscard]] double height(const PoseGroup& group, const Vec3& normal) const {
+    double most = -kInfinity;
+    for (const Profile& part : sweep_.body->parts())
+      most = std::max(most, support(group, part, normal));
+    return most + normal.dot(group.representative.tip);
+  }
+
+  [[nodiscard]] bool is_beside(const Tile& tile, const PoseGroup& group) const {
+    const Vec3 d = tile.corners[0].direction;
+    const Vec3 middle = 0.25 * (tile.corners[0].origin + tile.corners[1].origin +
+                                tile.corners[2].origin + tile.corners[3].origin);
+    const Vec3& axis = group.representative.axis;
+    const Vec3 offset = middle - group.representative.tip;
+    const auto apart = [&](const Vec3& n) {
+      double least = kInfinity;
+      for (const Ray& c : tile.corners) least = std::min(least, n.dot(c.origin));
+      return height(group, n) < least - kSurely;
+    };
+    const Vec3 across = d.cross(axis);
+    const double sine = across.norm();
+    if (sine > 1e-3 && apart(across * ((across.dot(offset) > 0.0 ? 1.0 : -1.0) / sine)))
+      return true;
+    const Vec3 facing = axis - d.dot(axis) * d;
+    const double length = facing.norm();
+    if (length > 1e-3) {
+      const Profile& part = sweep_.body->parts().front();
+      const double half = 0.5 * (part.bottom() + part.height());
+      const double side = facing.dot(offset) > half * length * length ? 1.0 : -1.0;
+      if (apart(facing * (side / length))) return true;
+    }
+    const Vec3 radial = offset - offset.dot(d) * d;
+    const double away = radial.norm();
+    return away > 1e-3 && apart(radial / away);
+  }
+
+  [[nodiscard]] Verdict judge(const Tile& tile, const PoseGroup& group) const {
+    if (group.earliest >= question_.first_excluded) return Verdict::aside;
+    if ((group.box.min.array() > tile.box.max.array()).any() ||
+        (group.box.max.array() < tile.box.min.array()).any()) {
+      return Verdict::aside;
+    }
+    bool is_level = false;
+    for (const Cover& c : covers_) {
+      const double lo = c.lo.is_beyond ? -kInfinity : height(group, c.lo.normal) - c.lo.least;
+      if (lo > kSurely) continue;
+      const double hi = c.hi.is_beyond ? -kInfinity : height(group, c.hi.normal) - c.hi.least;
+      if (hi > kSurely) continue;
+      if (lo < -1.5 * kSearchTolerance && hi < -1.5 * kSearchTolerance) return Verdict::aside;
+      is_level = true;
+    }
+    if (is_beside(tile, group)) return Verdict::aside;
+    return is_level ? Verdict::level : Verdict::open;
+  }
+
+  // Appends to lists_ what of it between first and last the tile leaves open. Groups that are much
+  // larger than the tile are divided.
+  void filter(const Tile& tile, std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) sift(tile, lists_[k]);
+    covers_.clear();
+  }
+  void sift(const Tile& tile, std::uint32_t index) {
+    const PoseGroup& group = groups_[index];
+    const Verdict verdict = judge(tile, group);
+    if (verdict == Verdict::aside) return;
+    if (verdict == Verdict::open && group.count == 0 && group.shift > tile.size) {
+      sift(tile, group.children);
+      sift(tile, group.children + 1);
+      return;
+    }
+    lists_.push_back(index);
+  }
+
+  const TileQuestion& question_;
+  const ToolSweep& sweep_;
+  std::span<const PoseGroup> groups_;
+  std::span<std::vector<SweptInterval>> swept_;
+  std::vector<std::uint8_t> done_;
+  std::vector<std::uint32_t> lists_{};  // a stack: of each tile on the way down, what is open
+  std::vector<std::uint32_t> hints_{};
+  std::vector<Cover> covers_{};
+  std::vector<Anchor> anchors_{};  // a stack too
+};
+
+}  // namespace
+
+void extend_swept_intervals(const TileQuestion& question, const ToolSweep& sweep,
+                            std::span<std::vector<SweptInterval>> swept) {
+  TileSearch(question, sweep, swept).run();
+}
+
+}  // namespace frustum::cutter

@@ -1,0 +1,186 @@
+#include "cutter/search/whole_sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace frustum::cutter {
+namespace {
+
+// Parts of a cutter that meet touch within this (mm), and so does what one pose covers: rounding of
+// their ends, and twice kPoseRounding.
+constexpr double kTouching = 5e-11;
+// A pose's chord and the solution of the segment that begins with it differ by rounding (mm): what
+// a pose covers counts for so much less.
+constexpr double kPoseRounding = 1e-11;
+// Bounds along the ray hold but for rounding (mm); those of planes, normal to them, but for this
+// share of kSearchTolerance: 1e-12 mm.
+constexpr double kBoundRounding = 1e-11;
+constexpr double kRoundingShare = 0.0025;
+// Below this cosine between the ray and a plane its rounding is too much along the ray.
+constexpr double kGrazingEnd = 0.02;
+
+// Of a place that is `depth` on the way out of what is covered.
+double step_of(double depth) { return std::floor(depth * (1.0 / kSearchTolerance)); }
+
+double depth_of(const SweptIntervalEnd& end, bool leaving) { return leaving ? end.s : -end.s; }
+
+}  // namespace
+
+SeparatingPlane EndPlanes::at(const SweptIntervalEnd& end, bool leaving) const {
+  const auto& segment = question_.path->segments[end.segment];
+  const SegmentMotion motion(*question_.path, segment, body_.reach());
+  return {body_, question_.ray, {end.s, end.section, end.face, motion.at(end.t)}, leaving};
+}
+
+WholeSweep::WholeSweep(const RayQuestion& question, const ToolSweep& sweep, const EndPlanes& planes,
+                       std::span<const SweptInterval> swept)
+    : question_(question), groups_(sweep.tree.groups()), planes_(planes) {
+  pieces_.reserve(swept.size() + 4);
+  for (const SweptInterval& c : swept) {
+    pieces_.push_back({{.at = c.lo, .solved = true, .has_plane = true},
+                       {.at = c.hi, .solved = true, .has_plane = true}});
+  }
+}
+
+std::vector<SweptInterval> WholeSweep::swept() const {
+  std::vector<SweptInterval> all;
+  all.reserve(pieces_.size());
+  for (const Piece& c : pieces_) all.push_back({c.lo.at, c.hi.at});
+  return all;
+}
+
+std::optional<std::uint32_t> WholeSweep::unsolved() const {
+  for (const Piece& c : pieces_) {
+    if (!c.lo.solved && c.lo.at.s > span().lo && c.lo.at.s < span().hi) return c.lo.at.segment;
+    if (!c.hi.solved && c.hi.at.s > span().lo && c.hi.at.s < span().hi) return c.hi.at.segment;
+  }
+  return std::nullopt;
+}
+
+void WholeSweep::settle(std::uint32_t segment) {
+  for (Piece& c : pieces_) {
+    for (End* end : {&c.lo, &c.hi}) end->solved = end->solved || end->at.segment == segment;
+  }
+}
+
+// Whether nothing that begins with segment `earliest`, and reaches as deep as this, wins the end.
+bool WholeSweep::behind(double depth, std::uint32_t earliest, const End& end, bool leaving) {
+  const double here = depth_of(end.at, leaving);
+  if (depth < here - 2.0 * kSearchTolerance) return true;
+  const double mine = step_of(here), theirs = step_of(depth);
+  if (theirs != mine) return theirs < mine;
+  return earliest > end.at.segment || (end.solved && earliest == end.at.segment);
+}
+
+bool WholeSweep::wants(std::uint32_t group, const GroupReach& reach) const {
+  if (!(std::max(reach.lo, span().lo) <= std::min(reach.hi, span().hi))) return false;
+  const std::uint32_t earliest = groups_[group].earliest;
+  const double lo = reach.lo - std::max(kBoundRounding, kRoundingShare * reach.lo_slack);
+  const double hi = reach.hi + std::max(kBoundRounding, kRoundingShare * reach.hi_slack);
+  return std::ranges::none_of(pieces_, [&](const Piece& c) {
+    return (c.hi.at.s >= span().hi || behind(hi, earliest, c.hi, true)) &&
+           (c.lo.at.s <= span().lo || behind(-lo, earliest, c.lo, false)) && lo <= c.hi.at.s &&
+           hi >= c.lo.at.s;
+  });
+}
+
+bool WholeSweep::wants_piece(std::uint32_t, double lo, double hi) const {
+  lo = std::max(lo, span().lo);
+  hi = std::min(hi, span().hi);
+  return lo <= hi && std::ranges::none_of(pieces_, [&](const Piece& c) {
+           return c.lo.at.s <= lo && hi <= c.hi.at.s;
+         });
+}
+
+const SeparatingPlane& WholeSweep::plane_at(End& end, bool leaving) const {
+  if (!end.has_plane) {
+    end.plane = planes_.at(end.at, leaving);
+    end.has_plane = true;
+  }
+  return end.plane;
+}
+
+bool WholeSweep::held_by(End& end, const PoseGroup& group, bool leaving) const {
+  const Overreach over = plane_at(end, leaving).overreach(group, 0.0);
+  if (!(over.most < kInfinity)) return false;
+  return behind(depth_of(end.at, leaving) + over.most + kBoundRounding + over.rounding,
+                group.earliest, end, leaving);
+}
+
+bool WholeSweep::held_by(End& end, std::uint32_t segment, const SegmentMotion& motion,
+                         bool leaving) const {
+  if (end.solved && segment == end.at.segment) return true;
+  constexpr double kRounding = kRoundingShare * kSearchTolerance;
+  const SeparatingPlane& plane = plane_at(end, leaving);
+  if (segment > end.at.segment) {
+    const double depth = depth_of(end.at, leaving);
+    if (step_of(depth + 2.0 * kRounding / kGrazingEnd) == step_of(depth) &&
+        plane.along(motion.at(0.0)) > kGrazingEnd) {
+      return plane.holds(motion, kRounding);
+    }
+  }
+  return plane.holds(motion, -1.01 * kSearchTolerance);
+}
+
+GroupLimit WholeSweep::limit(const PoseGroup& group) {
+  return {.holds = std::ranges::any_of(pieces_, [&](Piece& c) {
+            return (c.hi.at.s >= span().hi || held_by(c.hi, group, true)) &&
+                   (c.lo.at.s <= span().lo || held_by(c.lo, group, false));
+          })};
+}
+
+bool WholeSweep::holds(std::uint32_t segment, const SegmentMotion& motion) {
+  return std::ranges::any_of(pieces_, [&](Piece& c) {
+    return (c.hi.at.s >= span().hi || held_by(c.hi, segment, motion, true)) &&
+           (c.lo.at.s <= span().lo || held_by(c.lo, segment, motion, false));
+  });
+}
+
+std::span<const Chord> WholeSweep::known() {
+  known_.clear();
+  for (const Piece& c : pieces_) known_.push_back({c.lo.at.s, c.hi.at.s});
+  return known_;
+}
+
+void WholeSweep::take(const SweptInterval& next) {
+  SweptInterval less = next;
+  less.lo.s += kPoseRounding;
+  less.hi.s -= kPoseRounding;
+  if (less.lo.s < less.hi.s) join(less, false);
+}
+
+bool WholeSweep::wins(const End& a, const End& b, bool leaving) {
+  const double a_depth = depth_of(a.at, leaving), b_depth = depth_of(b.at, leaving);
+  const double a_step = step_of(a_depth), b_step = step_of(b_depth);
+  if (a_step != b_step) return a_step > b_step;
+  if (a.at.segment != b.at.segment) return a.at.segment < b.at.segment;
+  return a_depth != b_depth ? a_depth > b_depth : a.solved;
+}
+
+void WholeSweep::join(const SweptInterval& next, bool solved) {
+  auto first = pieces_.begin();
+  while (first != pieces_.end() && first->hi.at.s < next.lo.s - kTouching) ++first;
+  Piece joined{{.at = next.lo, .solved = solved}, {.at = next.hi, .solved = solved}};
+  auto last = first;
+  bool lo_is_old = false, hi_is_old = false;
+  for (; last != pieces_.end() && last->lo.at.s <= next.hi.s + kTouching; ++last) {
+    if (!wins(joined.lo, last->lo, false)) {
+      joined.lo = last->lo;
+      lo_is_old = true;
+    }
+    if (!wins(joined.hi, last->hi, true)) {
+      joined.hi = last->hi;
+      hi_is_old = true;
+    }
+  }
+  if (first == last) {
+    pieces_.insert(first, joined);
+    ++change_;
+    return;
+  }
+  if (!lo_is_old || !hi_is_old || last - first > 1) ++change_;
+  *first = joined;
+  pieces_.erase(first + 1, last);
+}
+
+}  // namespace frustum::cutter

@@ -1,0 +1,92 @@
+// What is covered of a ray so far, and which segments may still say more: a goal of GroupSearch.
+//
+// Model    : overlapping pieces become one. An end belongs to the segment that reaches farthest, in
+//            steps of kSearchTolerance along the ray; of segments in the same step to the earliest.
+//            It is where that segment's own solution puts it. So the answer depends on the segments
+//            alone, not on the order in which a search comes to them: a search may leave aside what
+//            surely does not reach the step of an end, or does so later in the program
+// Units    : mm along the ray; frame: workpiece
+// Errors   : none
+// Accuracy : an end is at most one step before where any segment's solution puts it
+// Source   : ours
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cutter/search/group_search.hpp"
+#include "cutter/search/ray_search.hpp"
+#include "cutter/search/separating_plane.hpp"
+
+namespace frustum::cutter {
+
+// The planes at the ends that a tool's own sweep has made so far.
+class EndPlanes {
+ public:
+  EndPlanes(const RayQuestion& question, const Body& body) : question_(question), body_(body) {}
+
+  [[nodiscard]] SeparatingPlane at(const SweptIntervalEnd& end, bool leaving) const;
+
+ private:
+  const RayQuestion& question_;
+  const Body& body_;
+};
+
+class WholeSweep {
+ public:
+  // `swept` is what other tools cover: their ends have no planes here.
+  WholeSweep(const RayQuestion& question, const ToolSweep& sweep, const EndPlanes& planes,
+             std::span<const SweptInterval> swept);
+
+  [[nodiscard]] std::vector<SweptInterval> swept() const;
+  // A segment that has an end within the span but was not solved yet.
+  [[nodiscard]] std::optional<std::uint32_t> unsolved() const;
+
+  // That segment was solved: its ends are what they are.
+  void settle(std::uint32_t segment);
+
+  // As GroupSearch asks them.
+  [[nodiscard]] const RaySpan& span() const { return question_.span; }
+  [[nodiscard]] static bool wants_lo(double) { return true; }
+  [[nodiscard]] static double promise(const GroupReach& reach) { return reach.hi - reach.lo; }
+  [[nodiscard]] int change() const { return change_; }
+  [[nodiscard]] bool wants(std::uint32_t group, const GroupReach& reach) const;
+  [[nodiscard]] bool wants_piece(std::uint32_t group, double lo, double hi) const;
+  [[nodiscard]] GroupLimit limit(const PoseGroup& group);
+  [[nodiscard]] bool holds(std::uint32_t segment, const SegmentMotion& motion);
+  [[nodiscard]] std::span<const Chord> known();
+  // Solutions do not depend on what is covered already.
+  [[nodiscard]] static std::span<const Chord> floors() { return {}; }
+  void take(const SweptInterval& next);
+  void take_solved(const SweptInterval& next) { join(next, true); }
+
+ private:
+  struct End {
+    SweptIntervalEnd at{};
+    bool solved = false;
+    bool has_plane = false;  // made when first asked for
+    SeparatingPlane plane{};
+  };
+  struct Piece {
+    End lo{}, hi{};
+  };
+  void join(const SweptInterval& next, bool solved);
+  [[nodiscard]] static bool wins(const End& a, const End& b, bool leaving);
+  [[nodiscard]] static bool behind(double depth, std::uint32_t earliest, const End& end,
+                                   bool leaving);
+  [[nodiscard]] bool held_by(End& end, const PoseGroup& group, bool leaving) const;
+  [[nodiscard]] bool held_by(End& end, std::uint32_t segment, const SegmentMotion& motion,
+                             bool leaving) const;
+  const SeparatingPlane& plane_at(End& end, bool leaving) const;
+
+  const RayQuestion& question_;
+  std::span<const PoseGroup> groups_;
+  const EndPlanes& planes_;
+  std::vector<Piece> pieces_{};
+  std::vector<Chord> known_{};
+  int change_ = 0;
+};
+
+}  // namespace frustum::cutter
