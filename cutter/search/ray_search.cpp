@@ -1,6 +1,7 @@
 #include "cutter/search/ray_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "core/constants.hpp"
@@ -20,7 +21,12 @@ class EndPlanes {
 
   [[nodiscard]] SeparatingPlane at(const SweptIntervalEnd& end, bool leaving) const {
     const auto& segment = question_.path->segments[end.segment];
-    const SegmentMotion motion(*question_.path, segment, body_.reach());
+    const ToolPose &from = question_.path->from(segment), &to = question_.path->to(segment);
+    if (end.t == 0.0 || end.t == 1.0) {
+      return {body_, question_.ray, {end.s, end.section, end.face, end.t == 0.0 ? from : to},
+              leaving};
+    }
+    const SegmentMotion motion(from, to, body_.reach());
     return {body_, question_.ray, {end.s, end.section, end.face, motion.at(end.t)}, leaving};
   }
 
@@ -60,12 +66,19 @@ class WholeSweptInterval {
     });
   }
 
-  [[nodiscard]] GroupLimit limit(const PoseGroup& group) {
-    return {.holds = between(
-                [&](const SeparatingPlane& end) { return end.overreach(group).most <= 0.0; })};
+  [[nodiscard]] PairLimit limit(const GroupPair& groups) {
+    const Held held = between([&](const SeparatingPlane& end) {
+      const Both most = end.overreach(groups).most;
+      return Held{most[0] <= 0.0, most[1] <= 0.0};
+    });
+    return {GroupLimit{.holds = held[0]}, GroupLimit{.holds = held[1]}};
   }
-  [[nodiscard]] bool holds(const SegmentMotion& motion) {
-    return between([&](const SeparatingPlane& end) { return end.holds(motion); });
+  [[nodiscard]] double room(const ToolPose& from, const ToolPose& to) {
+    const bool held = between([&](const SeparatingPlane& end) {
+      const bool by = end.holds(from, to);
+      return Held{by, by};
+    })[0];
+    return held ? 0.0 : -1.0;
   }
 
   [[nodiscard]] std::span<const Chord> known() {
@@ -104,18 +117,26 @@ class WholeSweptInterval {
     SweptInterval interval{};
     std::optional<SeparatingPlane> lo{}, hi{};  // made when first asked for
   };
-  // Whether it is between the ends of one interval, both of which hold it back.
+  // Whether each of two is between the ends of one interval, both of which hold it back.
+  using Held = std::array<bool, 2>;
   template <class HeldBy>
-  [[nodiscard]] bool between(const HeldBy& held_by) {
-    return std::ranges::any_of(swept_, [&](BoundedInterval& c) {
+  [[nodiscard]] Held between(const HeldBy& held_by) {
+    Held all{};
+    for (BoundedInterval& c : swept_) {
+      Held by{true, true};
       if (c.interval.hi.s < span_.hi) {
         if (!c.hi) c.hi = planes_.at(c.interval.hi, true);
-        if (!held_by(*c.hi)) return false;
+        by = held_by(*c.hi);
       }
-      if (c.interval.lo.s <= span_.lo) return true;
-      if (!c.lo) c.lo = planes_.at(c.interval.lo, false);
-      return held_by(*c.lo);
-    });
+      if ((by[0] || by[1]) && c.interval.lo.s > span_.lo) {
+        if (!c.lo) c.lo = planes_.at(c.interval.lo, false);
+        const Held by_lo = held_by(*c.lo);
+        by = {by[0] && by_lo[0], by[1] && by_lo[1]};
+      }
+      all = {all[0] || by[0], all[1] || by[1]};
+      if (all[0] && all[1]) break;
+    }
+    return all;
   }
 
   RaySpan span_;
@@ -146,13 +167,17 @@ class Front {
   }
 
   // Whatever a group covers before the front does not matter.
-  [[nodiscard]] GroupLimit limit(const PoseGroup& group) {
+  [[nodiscard]] PairLimit limit(const GroupPair& groups) {
     if (change_ == 0) return {};
-    const Overreach over = plane().overreach(group);
-    return {over.most <= 0.0, over.by_representative, front_.s + over.most};
+    const Overreach over = plane().overreach(groups);
+    const auto of = [&](std::size_t half) {
+      return GroupLimit{over.most[half] <= 0.0, over.most[half] == kInfinity,
+                        front_.s + over.most[half]};
+    };
+    return {of(0), of(1)};
   }
-  [[nodiscard]] bool holds(const SegmentMotion& motion) {
-    return change_ > 0 && plane().holds(motion);
+  [[nodiscard]] double room(const ToolPose& from, const ToolPose& to) {
+    return change_ > 0 ? plane().room(from, to) : -kInfinity;
   }
 
   [[nodiscard]] std::span<const Chord> known() {
