@@ -28,12 +28,13 @@ struct Box {
 class BoxCrossing {
  public:
   explicit BoxCrossing(const Ray& ray) : origin_(ray.origin) {
-    // A ray along a face is as good as one that crosses it very far away.
+    for (int k = 0; k < 3; ++k) inverse_[k] = inverse_of(ray.direction[k]);
+  }
+  static constexpr double kMargin = 1e-9;  // mm, above rounding
+  // A ray along a face is as good as one that crosses it very far away.
+  [[nodiscard]] static double inverse_of(double direction) {
     constexpr double kAlong = 1e-200;
-    for (int k = 0; k < 3; ++k) {
-      const double d = ray.direction[k];
-      inverse_[k] = std::abs(d) < kAlong ? 1.0 / kAlong : 1.0 / d;
-    }
+    return std::abs(direction) < kAlong ? 1.0 / kAlong : 1.0 / direction;
   }
   // Where within the span the ray may cross the box; lo above hi: nowhere.
   [[nodiscard]] RaySpan within(const Box& box, const RaySpan& span) const {
@@ -48,7 +49,6 @@ class BoxCrossing {
   }
 
  private:
-  static constexpr double kMargin = 1e-9;  // mm, above rounding
   Vec3 origin_;
   Vec3 inverse_ = Vec3::Zero();
 };

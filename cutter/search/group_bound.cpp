@@ -4,23 +4,22 @@
 
 namespace frustum::cutter {
 
-double normal_turn(const PoseGroup& group) {
-  return group.axis_shift * (1.0 + 2.0 * group.axis_shift);
-}
-
-// At another pose, tip p + dp and axis a + da, the normal is n + dn, dn = axial da - lateral
-// (side.da) a within 2 |da|^2; the point at y from the tip is then n.dp + dn.dp - dn.y less beyond
-// the plane.
-double most_lost(const SupportingPlane& plane, const PoseGroup& group, const Vec3& y) {
-  constexpr double kFarTurned = 0.5;  // the expansion holds below
-  const double turned = group.axis_shift;
-  if (turned > kFarTurned) return std::numeric_limits<double>::infinity();
-  const Vec3& axis = group.representative.axis;
-  const double by_tip = farthest_tip(group, plane.normal_across(axis));
-  if (turned == 0.0) return by_tip;
-  const Vec3 c = plane.lateral * y.dot(axis) * plane.side - plane.axial * y;
-  return by_tip + farthest_axis(group, c) + normal_turn(group) * group.tip_shift +
-         2.0 * turned * turned * y.norm();
+GroupBeyond most_beyond(const PoseGroup& group, const LatitudePlane& plane, const Vec3& point,
+                        const Vec3& direction) {
+  const Vec3& a = group.middle.axis;
+  const Vec3 m = point - group.middle.tip;
+  const Vec3& w = plane.across;
+  // What the height loses with dp and gains with da.
+  const Vec3 by_tip = plane.lateral * a.cross(w) + plane.axial * a;
+  const double fall = by_tip.dot(direction) - group.axis_shift;
+  if (!(fall > 0.0)) return {std::numeric_limits<double>::infinity(), fall};
+  const double height = by_tip.dot(m) - plane.offset;
+  double lost = (group.frame.transpose() * by_tip).cwiseAbs().dot(group.tip_half);
+  if (group.axis_shift > 0.0) {
+    const Vec3 by_axis = plane.lateral * w.cross(m) + plane.axial * m;
+    lost += (group.frame.transpose() * by_axis).cwiseAbs().dot(group.axis_half) + group.tip_turn;
+  }
+  return {(lost - height) / fall, fall};
 }
 
 }  // namespace frustum::cutter

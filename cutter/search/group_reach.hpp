@@ -12,7 +12,7 @@
 #include <optional>
 
 #include "cutter/body/profile.hpp"
-#include "cutter/search/pose_tree.hpp"
+#include "cutter/search/pose_group.hpp"
 
 namespace frustum::cutter {
 
@@ -33,7 +33,8 @@ struct WantedEnds {
 };
 
 // `known`: the chord of the representative.
-[[nodiscard]] GroupReach reach_of(const PoseGroup& group, const Profile& part, const Ray& ray,
+[[nodiscard]] GroupReach reach_of(const PoseGroup& group, const ToolPose& representative,
+                                  const Profile& part, const Ray& ray,
                                   const std::optional<Chord>& known, WantedEnds wanted);
 
 }  // namespace frustum::cutter

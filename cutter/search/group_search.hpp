@@ -10,14 +10,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "core/box.hpp"
 #include "core/constants.hpp"
 #include "cutter/search/group_reach.hpp"
+#include "cutter/search/pair_crossing.hpp"
 #include "cutter/search/ray_search.hpp"
 #include "cutter/sweep/concave_sweep.hpp"
 
@@ -31,11 +33,16 @@ struct GroupLimit {
   double hi = kInfinity;
 };
 
+// Of the two groups of a pair.
+using PairLimit = std::array<GroupLimit, 2>;
+
 // What promises most comes first. The goal knows what it still wants:
 //   RaySpan span()            where on the ray
-//   GroupLimit limit(group)   what do the ends found so far, by their planes, leave of the group?
-//   bool holds(segment, motion)  do they leave nothing of this motion?
-//   bool wants(group, reach)  could this still add anything?
+//   PairLimit limit(pair)     what do the ends found so far, by their planes, leave of the groups?
+//   double room(segment, from, to)  do they leave nothing of the segment, which is between these
+//                             poses? Not if it is less than 0, the less the more is left
+//   RaySpan counted(reach)    what of a reach counts, slack and rounding considered
+//   bool wants(group, span)   could this, as it counts, still add anything?
 //   bool wants_lo(lo)         does it matter where a group begins whose representative begins
 //   there? double promise(reach)     the more, the sooner it is asked
 //   void take(interval)       covered for certain
@@ -52,23 +59,21 @@ class GroupSearch {
         sweep_(sweep),
         goal_(goal),
         parts_(sweep.body->parts()),
-        groups_(sweep.tree.groups()),
+        pairs_(sweep.tree.pairs()),
         in_box_(question.ray) {
     open_.reserve(64);
   }
 
+  // What is under one group; the root has number 0.
   void run(std::uint32_t group) {
-    if (groups_.empty()) return;
+    if (pairs_.empty()) return;
     run(std::span(&group, 1));
   }
   // In the order given, but that what promises most comes first.
   void run(std::span<const std::uint32_t> groups) {
-    for (const std::uint32_t group : groups) consider(group);
-    while (!open_.empty()) {
-      std::ranges::pop_heap(open_, {}, &Candidate::promise);
-      const Candidate next = open_.back();
-      open_.pop_back();
-      if (still_wanted(next)) visit(next.group);
+    for (const std::uint32_t group : groups) consider(group / 2, group % 2, group % 2 + 1);
+    for (Candidate next; take_best(next);) {
+      if (goal_.change() == next.change || goal_.wants(next.group, next.counted)) visit(next.group);
     }
     while (!gaps_.empty()) {
       const Gap gap = gaps_.back();
@@ -82,10 +87,10 @@ class GroupSearch {
 
  private:
   struct Candidate {
+    double promise = 0.0;
+    RaySpan counted{};  // of its reach
     std::uint32_t group = 0;
     int change = 0;  // of the goal, when it was judged
-    GroupReach reach{};
-    double promise = 0.0;
   };
   // Between an end of what a concave section's hull sweeps, or of what was known then, and the
   // next: what of it the body covers is asked last, when least is left of it. `is_end`: of the
@@ -96,38 +101,70 @@ class GroupSearch {
     bool lo_is_end = false, hi_is_end = false;
   };
 
-  void consider(std::uint32_t index) {
-    const PoseGroup& group = groups_[index];
-    if (group.earliest >= question_.first_excluded) return;
-    const RaySpan in_box = in_box_.within(group.box, goal_.span());
-    if (!(in_box.lo <= in_box.hi)) return;
-    GroupReach reach{in_box.lo, in_box.hi};
-    if (!goal_.wants(index, reach)) return;
-    const GroupLimit limit = goal_.limit(group);
-    if (limit.holds) return;
+  // The groups `from` to `to` of a pair.
+  void consider(std::uint32_t pair, std::size_t from, std::size_t to) {
+    const GroupPair& groups = pairs_[pair];
+    const PairSpan in_box = in_box_.within(groups, goal_.span());
+    std::array<bool, 2> wanted{};
+    for (std::size_t half = from; half < to; ++half) {
+      const RaySpan span{in_box.lo[half], in_box.hi[half]};
+      wanted[half] = groups.earliest[half] < question_.first_excluded && span.lo <= span.hi &&
+                     goal_.wants(2 * pair + static_cast<std::uint32_t>(half),
+                                 goal_.counted({span.lo, span.hi}));
+    }
+    if (!wanted[0] && !wanted[1]) return;
+    const PairLimit limits = goal_.limit(groups);
+    for (std::size_t half = from; half < to; ++half) {
+      if (!wanted[half] || limits[half].holds) continue;
+      judge(groups, 2 * pair + static_cast<std::uint32_t>(half), limits[half],
+            {in_box.lo[half], in_box.hi[half]});
+    }
+  }
+
+  void judge(const GroupPair& groups, std::uint32_t index, const GroupLimit& limit,
+             GroupReach reach) {
     // Else so far apart that one pose says nothing about the others.
-    if (limit.counts_representative && group.shift <= sweep_.body->reach()) {
-      reach = reach_by_representative(group, limit.hi == kInfinity);
+    if (limit.counts_representative && groups.shift[index % 2] <= sweep_.body->reach()) {
+      reach = reach_by_representative(groups.group(index % 2), limit.hi == kInfinity);
     }
     if (limit.hi < reach.hi) {
       reach.hi = limit.hi;
       reach.hi_slack = 0.0;  // it is in the limit already
     }
-    if (!goal_.wants(index, reach)) return;
-    open_.push_back({index, goal_.change(), reach, goal_.promise(reach)});
-    std::ranges::push_heap(open_, {}, &Candidate::promise);
+    const RaySpan counted = goal_.counted(reach);
+    if (!goal_.wants(index, counted)) return;
+    add({goal_.promise(reach), counted, index, goal_.change()});
   }
 
-  // Since it was judged more may be covered.
-  bool still_wanted(const Candidate& next) {
-    if (goal_.change() == next.change) return true;
-    return goal_.wants(next.group, next.reach) && !goal_.limit(groups_[next.group]).holds;
+  // Of the open ones the best is kept apart: mostly it is the next at once.
+  void add(const Candidate& next) {
+    if (!has_best_) {
+      best_ = next;
+      has_best_ = true;
+      return;
+    }
+    const bool is_better = next.promise > best_.promise;
+    open_.push_back(is_better ? best_ : next);
+    std::ranges::push_heap(open_, {}, &Candidate::promise);
+    if (is_better) best_ = next;
+  }
+  bool take_best(Candidate& next) {
+    const bool is_in_heap = !open_.empty() && (!has_best_ || open_.front().promise > best_.promise);
+    if (is_in_heap) {
+      next = open_.front();
+      std::ranges::pop_heap(open_, {}, &Candidate::promise);
+      open_.pop_back();
+      return true;
+    }
+    next = best_;
+    return std::exchange(has_best_, false);
   }
 
   GroupReach reach_by_representative(const PoseGroup& group, bool wants_hi) {
     GroupReach reach = kNoReach;
+    const ToolPose& representative = group.representative(*question_.path);
     const auto widen = [&](const Profile& part, const std::optional<Chord>& known) {
-      const GroupReach more = reach_of(group, part, question_.ray, known,
+      const GroupReach more = reach_of(group, representative, part, question_.ray, known,
                                        {known && goal_.wants_lo(known->lo), wants_hi});
       reach.lo = std::min(reach.lo, more.lo);
       reach.hi = std::max(reach.hi, more.hi);
@@ -135,7 +172,7 @@ class GroupSearch {
       reach.hi_slack = std::min(reach.hi_slack, more.hi_slack);
     };
     for (std::uint32_t i = 0; i < parts_.size(); ++i) {
-      const auto known = parts_[i].chord(group.representative, question_.ray);
+      const auto known = parts_[i].chord(representative, question_.ray);
       if (known && group.representative_segment < question_.first_excluded) {
         goal_.take({{known->lo, group.representative_segment, i, 0.0, known->lo_face},
                     {known->hi, group.representative_segment, i, 0.0, known->hi_face}});
@@ -143,29 +180,41 @@ class GroupSearch {
       widen(parts_[i], known);
     }
     for (const Profile& hull : sweep_.body->concave()) {
-      widen(hull, hull.chord(group.representative, question_.ray));
+      widen(hull, hull.chord(representative, question_.ray));
     }
     return reach;
   }
 
-  // Large trees do not fit into the caches: both of a pair are asked for before the first is looked
-  // at.
-  void fetch(std::uint32_t pair) const {
-    const auto* bytes = reinterpret_cast<const char*>(&groups_[pair]);
-    constexpr std::size_t kLine = 64;
-    for (std::size_t k = 0; k < 2 * sizeof(PoseGroup); k += kLine) __builtin_prefetch(bytes + k);
-  }
-
   void visit(std::uint32_t index) {
-    const PoseGroup& group = groups_[index];
-    if (group.count == 0) {
-      fetch(group.children);
-      consider(group.children);
-      consider(group.children + 1);
+    const GroupPair& groups = pairs_[index / 2];
+    const std::uint32_t next = groups.next[index % 2];
+    const std::size_t count = groups.count[index % 2];
+    if (count == 0) {
+      consider(next, 0, 2);
       return;
     }
-    for (const std::uint32_t segment : sweep_.tree.segments().subspan(group.first, group.count)) {
-      if (segment < question_.first_excluded) solve(index, segment);
+    solve_leaf(index, sweep_.tree.segments().subspan(next, count));
+  }
+
+  // Those that go deepest into what is not covered come first: they hold back the others.
+  void solve_leaf(std::uint32_t index, std::span<const std::uint32_t> segments) {
+    struct Open {
+      double room;
+      std::uint32_t segment;
+    };
+    std::array<Open, kMostInLeaf> open;
+    std::size_t count = 0;
+    for (const std::uint32_t segment : segments) {
+      if (segment >= question_.first_excluded) continue;
+      const double room = room_of(segment);
+      if (room >= 0.0) continue;
+      std::size_t at = count++;
+      for (; at > 0 && open[at - 1].room > room; --at) open[at] = open[at - 1];
+      open[at] = {room, segment};
+    }
+    const int change = goal_.change();
+    for (std::size_t i = 0; i < count; ++i) {
+      if (goal_.change() == change || room_of(open[i].segment) < 0.0) solve(index, open[i].segment);
     }
   }
 
@@ -173,9 +222,13 @@ class GroupSearch {
     return {*question_.path, question_.path->segments[segment], sweep_.body->reach()};
   }
 
+  [[nodiscard]] double room_of(std::uint32_t segment) const {
+    const kinematics::PathSegment& s = question_.path->segments[segment];
+    return goal_.room(segment, question_.path->from(s), question_.path->to(s));
+  }
+
   void solve(std::uint32_t group, std::uint32_t segment) {
     const SegmentMotion motion = motion_of(segment);
-    if (goal_.holds(segment, motion)) return;
     solve_parts(segment, motion);
     const auto sections = sweep_.body->sections();
     for (auto i = static_cast<std::uint32_t>(parts_.size()); i < sections.size(); ++i) {
@@ -235,8 +288,8 @@ class GroupSearch {
   }
 
   void walk(const Gap& gap) {
+    if (room_of(gap.segment) >= 0.0) return;
     const SegmentMotion motion = motion_of(gap.segment);
-    if (goal_.holds(gap.segment, motion)) return;
     const ConcaveSweep concave(*sweep_.body, motion, question_.ray);
     const auto end_at = [&](const SweptEnd& end) -> SweptIntervalEnd {
       constexpr double kSameEnd = 1e-9;  // mm
@@ -254,9 +307,11 @@ class GroupSearch {
   const ToolSweep& sweep_;
   Goal& goal_;
   std::span<const Profile> parts_;
-  std::span<const PoseGroup> groups_;
-  BoxCrossing in_box_;
+  std::span<const GroupPair> pairs_;
+  PairCrossing in_box_;
   std::vector<Candidate> open_{};  // a heap by promise
+  Candidate best_{};
+  bool has_best_ = false;
   std::vector<SegmentInterval> found_{};
   std::vector<Gap> gaps_{}, covered_{};
 };

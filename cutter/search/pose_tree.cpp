@@ -1,10 +1,15 @@
 #include "cutter/search/pose_tree.hpp"
 
+#include <oneapi/tbb/parallel_invoke.h>
+
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "cutter/sweep/swept_box.hpp"
 
 namespace frustum::cutter {
 namespace {
@@ -12,7 +17,27 @@ namespace {
 using kinematics::PathSegment;
 using kinematics::ToolPath;
 
-constexpr std::uint32_t kLeaf = 4;
+constexpr std::uint32_t kLeaf = kMostInLeaf;
+// Groups of fewer segments are not worth a task of their own.
+constexpr std::uint32_t kTask = 4096;
+// So many segments say which way a group extends.
+constexpr std::uint32_t kSampled = 512;
+
+// Pairs under a group of so many segments. Halved again and again they come in two sizes, n and
+// n + 1.
+std::uint32_t pairs_under(std::uint32_t count) {
+  std::uint32_t pairs = 0, n = count, of_n = 1, of_more = 0;
+  while (n + (of_more > 0 ? 1 : 0) > kLeaf) {
+    const std::uint32_t split_n = n > kLeaf ? of_n : 0;
+    pairs += split_n + of_more;
+    // Halves of n: n / 2 and n - n / 2; of n + 1 likewise.
+    const bool even = n % 2 == 0;
+    of_n = 2 * split_n - (even ? 0 : split_n) + (even ? of_more : 0);
+    of_more = even ? of_more : split_n + 2 * of_more;
+    n /= 2;
+  }
+  return pairs;
+}
 
 // Mean and spread of some vectors.
 class Scatter {
@@ -33,47 +58,103 @@ class Scatter {
   int count_ = 0;
 };
 
+float above(double x) {
+  const auto rounded = static_cast<float>(x);
+  return rounded >= x ? rounded : std::nextafter(rounded, std::numeric_limits<float>::infinity());
+}
+float below(double x) { return -above(-x); }
+
+struct Range {
+  Vec3 lo = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 hi = -lo;
+
+  void add(const Vec3& v) {
+    lo = lo.cwiseMin(v);
+    hi = hi.cwiseMax(v);
+  }
+  [[nodiscard]] Vec3 middle() const { return 0.5 * (lo + hi); }
+  [[nodiscard]] Vec3 half_about(const Vec3& centre) const {
+    return (hi - centre).cwiseMax(centre - lo);
+  }
+};
+
+Vec3 single(const Vec3& v) { return v.cast<float>().cast<double>(); }
+
+// Where a group is in the tree.
+struct Place {
+  std::uint32_t pair;
+  std::size_t half;
+};
+
 class Builder {
  public:
-  Builder(const ToolPath& path, std::span<const Box> boxes, std::vector<std::uint32_t>& order,
-          double reach, std::vector<PoseGroup>& groups)
-      : path_(path), boxes_(boxes), order_(order), reach_(reach), groups_(groups) {}
+  Builder(const ToolPath& path, std::vector<std::uint32_t>& order, const Body& body,
+          std::vector<GroupPair>& pairs)
+      : path_(path),
+        order_(order),
+        extent_{0.0, body.height(), body.max_radius()},
+        reach_(body.reach()),
+        pairs_(pairs),
+        keyed_(order.size()) {}
 
-  void build(std::uint32_t index, std::uint32_t first, std::uint32_t count) {
+  // Of the segments from `first` on; what is under it goes to the pairs from `free` on.
+  void build(Place place, std::uint32_t first, std::uint32_t count, std::uint32_t free) {
     Scatter tips, axes;
     const Vec3 centre = from(first).tip;  // keeps the products small
-    for (std::uint32_t i = first; i < first + count; ++i) {
+    bool turns = false;
+    for (std::uint32_t i = first; i < first + count; i += 1 + count / kSampled) {
       tips.add(from(i).tip - centre);
       tips.add(to(i).tip - centre);
       axes.add(reach_ * from(i).axis);
       axes.add(reach_ * to(i).axis);
+      turns = turns || from(i).axis != from(first).axis || to(i).axis != from(first).axis;
     }
-    const Eigen::SelfAdjointEigenSolver<Mat3> spread(tips.covariance());
-    groups_[index] = group_of(first, count, spread.eigenvectors());
-    if (count <= kLeaf) return;
-    groups_[index].count = 0;
-
-    const Eigen::SelfAdjointEigenSolver<Mat3> turning(axes.covariance());
-    const bool by_place = spread.eigenvalues()[2] >= turning.eigenvalues()[2];
-    const Vec3 direction = by_place ? spread.eigenvectors().col(2) : turning.eigenvectors().col(2);
-    const auto key = [&](std::uint32_t segment) -> double {
-      const PathSegment& s = path_.segments[segment];
-      return by_place ? direction.dot(path_.from(s).tip + path_.to(s).tip)
-                      : direction.dot(path_.from(s).axis + path_.to(s).axis);
-    };
-    const auto begin = order_.begin() + first;
+    Eigen::SelfAdjointEigenSolver<Mat3> spread, turning;
+    spread.computeDirect(tips.covariance());
+    describe(place, first, count, spread.eigenvectors());
+    GroupPair& pair = pairs_[place.pair];
+    if (count <= kLeaf) {
+      pair.next[place.half] = first;
+      pair.count[place.half] = static_cast<std::uint16_t>(count);
+      finish_leaf(place, first, count);
+      return;
+    }
+    Vec3 direction = spread.eigenvectors().col(2);
+    bool by_place = true;
+    if (turns) {
+      turning.computeDirect(axes.covariance());
+      by_place = spread.eigenvalues()[2] >= turning.eigenvalues()[2];
+      if (!by_place) direction = turning.eigenvectors().col(2);
+    }
     const std::uint32_t half = count / 2;
-    std::nth_element(begin, begin + half, begin + count, [&](std::uint32_t a, std::uint32_t b) {
-      return std::pair(key(a), a) < std::pair(key(b), b);
-    });
-    const auto children = static_cast<std::uint32_t>(groups_.size());
-    groups_.resize(groups_.size() + 2);
-    groups_[index].children = children;
-    build(children, first, half);
-    build(children + 1, first + half, count - half);
+    part(first, count, half, direction, by_place);
+    const std::uint32_t left = free + 1, right = left + pairs_under(half);
+    const auto build_left = [&] { build({free, 0}, first, half, left); };
+    const auto build_right = [&] { build({free, 1}, first + half, count - half, right); };
+    if (count > kTask) {
+      tbb::parallel_invoke(build_left, build_right);
+    } else {
+      build_left();
+      build_right();
+    }
+    const GroupPair& children = pairs_[free];
+    for (std::size_t k = 0; k < 3; ++k) {
+      pair.box_min[k][place.half] = std::min(children.box_min[k][0], children.box_min[k][1]);
+      pair.box_max[k][place.half] = std::max(children.box_max[k][0], children.box_max[k][1]);
+    }
+    pair.earliest[place.half] = std::min(children.earliest[0], children.earliest[1]);
+    pair.next[place.half] = free;
   }
 
  private:
+  struct Keyed {
+    double key;
+    std::uint32_t segment;
+    bool operator<(const Keyed& b) const {
+      return key < b.key || (key == b.key && segment < b.segment);
+    }
+  };
+
   [[nodiscard]] const ToolPose& from(std::uint32_t i) const {
     return path_.from(path_.segments[order_[i]]);
   }
@@ -81,81 +162,131 @@ class Builder {
     return path_.to(path_.segments[order_[i]]);
   }
 
-  [[nodiscard]] PoseGroup group_of(std::uint32_t first, std::uint32_t count,
-                                   const Mat3& frame) const {
-    PoseGroup group{.first = first, .count = count, .frame = frame};
-    group.representative_segment = order_[first + count / 2];
-    group.representative = path_.from(path_.segments[group.representative_segment]);
-    group.earliest = std::numeric_limits<std::uint32_t>::max();
-    group.box = boxes_[order_[first]];
-    double tip_shift2 = 0.0, axis_shift2 = 0.0, sagitta = 0.0;
+  // Those that are farther back along the direction come first.
+  void part(std::uint32_t first, std::uint32_t count, std::uint32_t half, const Vec3& direction,
+            bool by_place) {
     for (std::uint32_t i = first; i < first + count; ++i) {
-      group.earliest = std::min(group.earliest, order_[i]);
-      group.box.min = group.box.min.cwiseMin(boxes_[order_[i]].min);
-      group.box.max = group.box.max.cwiseMax(boxes_[order_[i]].max);
-      for (const ToolPose& pose : {from(i), to(i)}) {
-        const Vec3 tip = pose.tip - group.representative.tip,
-                   axis = pose.axis - group.representative.axis;
-        tip_shift2 = std::max(tip_shift2, tip.squaredNorm());
-        axis_shift2 = std::max(axis_shift2, axis.squaredNorm());
-        const Vec3 along = frame.transpose() * tip, turned = frame.transpose() * axis;
-        group.tip_lo = group.tip_lo.cwiseMin(along);
-        group.tip_hi = group.tip_hi.cwiseMax(along);
-        group.axis_lo = group.axis_lo.cwiseMin(turned);
-        group.axis_hi = group.axis_hi.cwiseMax(turned);
+      keyed_[i] = {by_place ? direction.dot(from(i).tip + to(i).tip)
+                            : direction.dot(from(i).axis + to(i).axis),
+                   order_[i]};
+    }
+    const auto begin = keyed_.begin() + first;
+    std::nth_element(begin, begin + half, begin + count);
+    for (std::uint32_t i = first; i < first + count; ++i) order_[i] = keyed_[i].segment;
+  }
+
+  void finish_leaf(Place place, std::uint32_t first, std::uint32_t count) {
+    GroupPair& pair = pairs_[place.pair];
+    std::uint32_t earliest = order_[first];
+    Box box = box_of(first);
+    for (std::uint32_t i = first + 1; i < first + count; ++i) {
+      earliest = std::min(earliest, order_[i]);
+      box = united(box, box_of(i));
+    }
+    pair.earliest[place.half] = earliest;
+    for (int k = 0; k < 3; ++k) {
+      pair.box_min[static_cast<std::size_t>(k)][place.half] = below(box.min[k]);
+      pair.box_max[static_cast<std::size_t>(k)][place.half] = above(box.max[k]);
+    }
+  }
+  [[nodiscard]] Box box_of(std::uint32_t i) const {
+    return swept_box(extent_, SegmentMotion(from(i), to(i), reach_));
+  }
+
+  // All but the box and where it leads.
+  void describe(Place place, std::uint32_t first, std::uint32_t count, const Mat3& directions) {
+    Mat3 frame = Mat3::Identity();
+    if (directions.allFinite() &&
+        std::abs(directions.determinant() * directions.determinant() - 1.0) < 1e-3) {
+      const Vec3 one = single(directions.col(0)), two = single(directions.col(1));
+      frame << one, two, one.cross(two);
+    }
+    const Mat3 to_frame = frame.inverse();
+    const ToolPose start = from(first);
+    Range tips, axes;
+    double sagitta = 0.0;
+    for (std::uint32_t i = first; i < first + count; ++i) {
+      for (const ToolPose* pose : {&from(i), &to(i)}) {
+        tips.add(to_frame * (pose->tip - start.tip));
+        axes.add(to_frame * (pose->axis - start.axis));
       }
       // Between its ends the axis runs on an arc: at most 1 - cos(turn / 2) beside the chord.
       const double chord2 = (to(i).axis - from(i).axis).squaredNorm();
-      sagitta = std::max(sagitta, 1.0 - std::sqrt(std::max(0.0, 1.0 - chord2 / 4.0)));
+      if (chord2 > 0.0) {
+        sagitta = std::max(sagitta, 1.0 - std::sqrt(std::max(0.0, 1.0 - chord2 / 4.0)));
+      }
     }
-    group.axis_lo.array() -= sagitta;
-    group.axis_hi.array() += sagitta;
-    group.tip_shift = std::sqrt(tip_shift2);
-    group.axis_shift = std::sqrt(axis_shift2) + sagitta;
-    group.shift = group.tip_shift + reach_ * group.axis_shift;
-    return group;
+    const ToolPose middle{single(start.tip + frame * tips.middle()),
+                          single(start.axis + frame * axes.middle())};
+    // Above the rounding of what they are made of.
+    const double tip_rounding = 1e-15 * (start.tip.lpNorm<1>() + middle.tip.lpNorm<1>());
+    constexpr double kAxisRounding = 4e-15;
+    const bool one_axis = sagitta == 0.0 && axes.lo == axes.hi && middle.axis == start.axis;
+    const Vec3 tip_half = tips.half_about(to_frame * (middle.tip - start.tip));
+    const Vec3 axis_half = axes.half_about(to_frame * (middle.axis - start.axis));
+
+    // The representative is the one nearest to the middle.
+    std::uint32_t representative = first;
+    double nearest2 = std::numeric_limits<double>::infinity();
+    double tip_shift2 = 0.0, axis_shift2 = 0.0, tip_turn2 = 0.0;
+    for (std::uint32_t i = first; i < first + count; ++i) {
+      double tip2 = 0.0, axis2 = 0.0;
+      for (const ToolPose* pose : {&to(i), &from(i)}) {
+        const double tip_of2 = (pose->tip - middle.tip).squaredNorm();
+        const double axis_of2 = (pose->axis - middle.axis).squaredNorm();
+        tip2 = std::max(tip2, tip_of2);
+        axis2 = std::max(axis2, axis_of2);
+        const double away2 = tip_of2 + reach_ * reach_ * axis_of2;
+        if (pose == &from(i) && away2 < nearest2) {
+          nearest2 = away2;
+          representative = i;
+        }
+      }
+      tip_shift2 = std::max(tip_shift2, tip2);
+      axis_shift2 = std::max(axis_shift2, axis2);
+      tip_turn2 = std::max(tip_turn2, tip2 * axis2);
+    }
+    const double tip_shift = std::sqrt(tip_shift2) + tip_rounding;
+    const double axis_shift = one_axis ? 0.0 : std::sqrt(axis_shift2) + sagitta + kAxisRounding;
+    const ToolPose& at = from(representative);
+    GroupPair& pair = pairs_[place.pair];
+    const std::size_t half = place.half;
+    for (int k = 0; k < 3; ++k) {
+      const auto d = static_cast<std::size_t>(k);
+      pair.tip[d][half] = static_cast<float>(middle.tip[k]);
+      pair.axis[d][half] = static_cast<float>(middle.axis[k]);
+      pair.first_column[d][half] = static_cast<float>(frame(k, 0));
+      pair.second_column[d][half] = static_cast<float>(frame(k, 1));
+      pair.tip_half[d][half] = above(tip_half[k] + tip_rounding);
+      pair.axis_half[d][half] =
+          one_axis ? 0.0F : above(axis_half[k] + 1.001 * sagitta + kAxisRounding);
+    }
+    pair.axis_shift[half] = above(axis_shift);
+    pair.tip_turn[half] = one_axis ? 0.0F
+                                   : above(std::sqrt(tip_turn2) + tip_rounding * axis_shift +
+                                           tip_shift * (1.001 * sagitta + kAxisRounding));
+    pair.shift[half] = above(tip_shift + (at.tip - middle.tip).norm() +
+                             reach_ * (axis_shift + (at.axis - middle.axis).norm()));
+    pair.representative_segment[half] = order_[representative];
   }
 
   const ToolPath& path_;
-  std::span<const Box> boxes_;
   std::vector<std::uint32_t>& order_;
+  AxialExtent extent_;
   double reach_;
-  std::vector<PoseGroup>& groups_;
+  std::vector<GroupPair>& pairs_;
+  std::vector<Keyed> keyed_;
 };
 
 }  // namespace
 
-double farthest_tip(const PoseGroup& group, const Vec3& v) {
-  const Vec3 n = group.frame.transpose() * v;
-  return n.cwiseProduct(group.tip_lo).cwiseMax(n.cwiseProduct(group.tip_hi)).sum();
-}
-
-double farthest_axis(const PoseGroup& group, const Vec3& v) {
-  const Vec3 n = group.frame.transpose() * v;
-  return n.cwiseProduct(group.axis_lo).cwiseMax(n.cwiseProduct(group.axis_hi)).sum();
-}
-
-double support(const PoseGroup& group, const Profile& body, const Vec3& normal) {
-  const Vec3 n = group.frame.transpose() * normal;
-  const double tip = (n.cwiseProduct(group.tip_lo)).cwiseMax(n.cwiseProduct(group.tip_hi)).sum();
-  const Vec3 a = n.cwiseProduct(group.axis_lo), b = n.cwiseProduct(group.axis_hi);
-  const double u = normal.dot(group.representative.axis);
-  const double u_lo = std::max(-1.0, u + a.cwiseMin(b).sum());
-  const double u_hi = std::min(1.0, u + a.cwiseMax(b).sum());
-  // Heights count with the largest n.axis, radii with the one nearest to zero.
-  const double nearest = std::clamp(0.0, std::min(u_lo, u_hi), u_hi);
-  return tip + body.support(std::sqrt(std::max(0.0, 1.0 - nearest * nearest)), u_hi);
-}
-
-PoseTree::PoseTree(const ToolPath& path, std::span<const Box> boxes,
-                   std::vector<std::uint32_t> segments, double reach)
+PoseTree::PoseTree(const ToolPath& path, std::vector<std::uint32_t> segments, const Body& body)
     : segments_(std::move(segments)) {
   if (segments_.empty()) return;
-  groups_.reserve(segments_.size() + 1);
-  groups_.resize(1);
-  Builder(path, boxes, segments_, reach, groups_)
-      .build(0, 0, static_cast<std::uint32_t>(segments_.size()));
-  groups_.shrink_to_fit();
+  const auto count = static_cast<std::uint32_t>(segments_.size());
+  pairs_.resize(1 + pairs_under(count));
+  pairs_.front().earliest[1] = std::numeric_limits<std::uint32_t>::max();
+  Builder(path, segments_, body, pairs_).build({0, 0}, 0, count, 1);
 }
 
 }  // namespace frustum::cutter

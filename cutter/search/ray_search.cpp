@@ -25,24 +25,31 @@ class Front {
   [[nodiscard]] int change() const { return change_; }
 
   // What begins beyond the front is asked again when the front has come there.
-  [[nodiscard]] bool wants(std::uint32_t group, const GroupReach& reach) {
-    if (!(reach.lo <= reach.hi) || reach.hi <= front_.s + reach.hi_slack) return false;
-    if (reach.lo <= front_.s + gap_) return true;
-    deferred_.push_back({reach.lo, group});
-    return false;
+  [[nodiscard]] static RaySpan counted(const GroupReach& reach) {
+    return {reach.lo, reach.hi - reach.hi_slack};
   }
-
-  // Whatever a group covers before the front does not matter.
-  [[nodiscard]] GroupLimit limit(const PoseGroup& group) {
-    if (change_ == 0) return {};
-    const Overreach over = plane().overreach(group);
-    return {over.most <= 0.0, over.by_representative, front_.s + over.most};
+  [[nodiscard]] bool wants(std::uint32_t group, const RaySpan& counted) {
+    if (!(counted.lo <= counted.hi) || counted.hi <= front_.s) return false;
+    if (counted.lo <= front_.s + gap_) return true;
+    deferred_.push_back({counted.lo, group});
+    return false;
   }
   [[nodiscard]] bool wants_piece(std::uint32_t group, double lo, double hi) {
     return wants(group, {lo, hi});
   }
-  [[nodiscard]] bool holds(std::uint32_t, const SegmentMotion& motion) {
-    return change_ > 0 && plane().holds(motion);
+
+  // Whatever a group covers before the front does not matter.
+  [[nodiscard]] PairLimit limit(const GroupPair& groups) {
+    if (change_ == 0) return {};
+    const Overreach over = plane().overreach(groups);
+    const auto of = [&](std::size_t half) {
+      return GroupLimit{over.most[half] <= 0.0, over.most[half] == kInfinity,
+                        front_.s + over.most[half]};
+    };
+    return {of(0), of(1)};
+  }
+  [[nodiscard]] double room(std::uint32_t, const ToolPose& from, const ToolPose& to) {
+    return change_ > 0 ? plane().room(from, to) : -kInfinity;
   }
 
   [[nodiscard]] std::span<const Chord> known() {
@@ -133,7 +140,7 @@ void extend_swept_interval(const RayQuestion& question, const ToolSweep& sweep,
 bool advance_front(const RayQuestion& question, const ToolSweep& sweep, double gap,
                    SweptIntervalEnd& front) {
   constexpr std::uint32_t kRoot = 0;
-  if (sweep.tree.groups().empty()) return false;
+  if (sweep.tree.empty()) return false;
   return advance_front(question, sweep, gap, {&kRoot, 1}, {}, front);
 }
 

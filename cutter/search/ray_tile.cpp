@@ -66,14 +66,10 @@ class TileSearch {
  public:
   TileSearch(const TileQuestion& question, const ToolSweep& sweep,
              std::span<std::vector<SweptInterval>> swept)
-      : question_(question),
-        sweep_(sweep),
-        groups_(sweep.tree.groups()),
-        swept_(swept),
-        done_(question.rays.size(), 0) {}
+      : question_(question), sweep_(sweep), swept_(swept), done_(question.rays.size(), 0) {}
 
   void run() {
-    if (groups_.empty() || question_.rays.empty()) return;
+    if (sweep_.tree.empty() || question_.rays.empty()) return;
     lists_.assign(1, 0U);
     const Rectangle all{0, question_.row, 0, question_.rays.size() / question_.row};
     divide(all, 0, std::nullopt);
@@ -197,7 +193,7 @@ class TileSearch {
       for (const SweptInterval& c : swept_[*neighbour]) {
         for (const bool leaving : {false, true}) {
           const SweptIntervalEnd& end = leaving ? c.hi : c.lo;
-          if (body_of(end) != sweep_.body) continue;
+          if (body_of(end.segment) != sweep_.body) continue;
           const std::uint32_t likely = climbed(question, *sweep_.body, end.segment, leaving);
           if (std::ranges::find(hints_, likely) != hints_.end()) continue;
           hints_.push_back(likely);
@@ -213,8 +209,9 @@ class TileSearch {
     swept_[r] = goal.swept();
   }
 
-  [[nodiscard]] const Body* body_of(const SweptIntervalEnd& end) const {
-    return question_.body_of_block[question_.path->segments[end.segment].block];
+  [[nodiscard]] const Body* body_of(std::uint32_t segment) const {
+    const std::uint32_t block = question_.path->segments[segment].block;
+    return &question_.tools->at(question_.path->blocks[block].tool).body();
   }
 
   // The cutter where it makes this end of the middle ray, seen from all rays of the tile.
@@ -222,7 +219,7 @@ class TileSearch {
                                                     const SweptIntervalEnd& end,
                                                     bool leaving) const {
     if (end.section == kConcaveSurface) return std::nullopt;
-    const Body& body = *body_of(end);
+    const Body& body = *body_of(end.segment);
     const Profile& part = body.sections()[end.section];
     const SegmentMotion motion(*question_.path, question_.path->segments[end.segment],
                                body.reach());
@@ -269,8 +266,7 @@ class TileSearch {
     covers_.push_back(cover);
     // What other tools cover is known of every ray.
     const auto is_own = [&](const Anchor& anchor) {
-      const std::uint32_t block = question_.path->segments[anchor.segment].block;
-      return question_.body_of_block[block] == sweep_.body;
+      return body_of(anchor.segment) == sweep_.body;
     };
     for (const HalfCover& half : {cover.lo, cover.hi}) {
       if (half.is_beyond && is_own(half.anchor)) anchors_.push_back(half.anchor);
@@ -292,15 +288,15 @@ class TileSearch {
     double most = -kInfinity;
     for (const Profile& part : sweep_.body->parts())
       most = std::max(most, support(group, part, normal));
-    return most + normal.dot(group.representative.tip);
+    return most + normal.dot(group.middle.tip);
   }
 
   [[nodiscard]] bool is_beside(const Tile& tile, const PoseGroup& group) const {
     const Vec3 d = tile.corners[0].direction;
     const Vec3 middle = 0.25 * (tile.corners[0].origin + tile.corners[1].origin +
                                 tile.corners[2].origin + tile.corners[3].origin);
-    const Vec3& axis = group.representative.axis;
-    const Vec3 offset = middle - group.representative.tip;
+    const Vec3& axis = group.middle.axis;
+    const Vec3 offset = middle - group.middle.tip;
     const auto apart = [&](const Vec3& n) {
       double least = kInfinity;
       for (const Ray& c : tile.corners) least = std::min(least, n.dot(c.origin));
@@ -349,7 +345,7 @@ class TileSearch {
     covers_.clear();
   }
   void sift(const Tile& tile, std::uint32_t index) {
-    const PoseGroup& group = groups_[index];
+    const PoseGroup group = sweep_.tree.group(index);
     const Verdict verdict = judge(tile, group);
     if (verdict == Verdict::aside) return;
     if (verdict == Verdict::open && group.count == 0 && group.shift > tile.size) {
@@ -362,7 +358,6 @@ class TileSearch {
 
   const TileQuestion& question_;
   const ToolSweep& sweep_;
-  std::span<const PoseGroup> groups_;
   std::span<std::vector<SweptInterval>> swept_;
   std::vector<std::uint8_t> done_;
   std::vector<std::uint32_t> lists_{};  // a stack: of each tile on the way down, what is open

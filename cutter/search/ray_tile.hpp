@@ -13,9 +13,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
+#include "cutter/body/cutter.hpp"
 #include "cutter/search/ray_search.hpp"
 
 namespace frustum::cutter {
@@ -24,7 +26,7 @@ namespace frustum::cutter {
 // above hi), that ray is not asked.
 struct TileQuestion {
   const kinematics::ToolPath* path = nullptr;
-  std::span<const Body* const> body_of_block{};
+  const std::map<int, Cutter>* tools = nullptr;  // by number, as the blocks name them
   std::span<const Ray> rays{};
   std::span<const RaySpan> spans{};
   std::size_t row = 1;

@@ -3,9 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cutter/search/group_bound.hpp"
+#include "cutter/sweep/segment_sweep.hpp"
 
 namespace frustum::cutter {
+namespace {
+
+// Nearer to the axis than this (mm) there is no meridian to speak of.
+constexpr double kOnAxis = 1e-9;
+
+}  // namespace
 
 SeparatingPlane::SeparatingPlane(const Body& body, const Ray& ray, const EndContact& end,
                                  bool leaving)
@@ -17,6 +23,8 @@ SeparatingPlane::SeparatingPlane(const Body& body, const Ray& ray, const EndCont
     const Zone& zone = section.zones()[static_cast<std::size_t>(end.face)];
     if (zone.kind != ZoneKind::cone) {
       round_ = &zone;
+      least_axial_ = std::max(-1.0, (zone.z_lo - zone.centre) / zone.radius);
+      most_axial_ = std::min(1.0, (zone.z_hi - zone.centre) / zone.radius);
       return;
     }
   }
@@ -33,71 +41,126 @@ double SeparatingPlane::support(double lateral, double axial) const {
   return most;
 }
 
-// A plane that touches a convex body where the round face is has all of the body on one side.
-double SeparatingPlane::support_of_round(double lateral, double axial) const {
-  const double touched_at = round_->centre + round_->radius * axial;
-  const bool on_face = round_->z_lo <= touched_at && touched_at <= round_->z_hi && lateral > 0.0;
-  if (!on_face || !body_->is_convex()) return support(lateral, axial);
-  return lateral * round_->major + axial * round_->centre + round_->radius;
-}
-
-std::optional<SupportingPlane> SeparatingPlane::touching(const ToolPose& pose) const {
-  const Vec3 m = end_ - pose.tip;
-  const double z = m.dot(pose.axis);
-  const Vec3 across = m - z * pose.axis;
-  const double rho = across.norm();
-  SupportingPlane plane{axial_, lateral_, offset_};
+SeparatingPlane::Planes SeparatingPlane::touching(const BothVec& m, const BothVec& axis) const {
+  Planes at;
+  const BothVec turned = m.cross(axis);
+  const Both rho = square_root(turned.dot(turned));
+  const Both z = m.dot(axis);
+  at.across = (rho > kOnAxis ? 1.0 / rho : both(0.0)) * turned;
+  Both offset = both(offset_);
+  at.axial = both(axial_);
+  at.lateral = both(lateral_);
   if (round_ != nullptr) {
-    const double beside =
-        round_->major < 0.0 ? rho - round_->major : std::max(0.0, rho - round_->major);
-    const double above = z - round_->centre;
-    const double length = std::sqrt(beside * beside + above * above);
-    if (!(length > 0.0)) return std::nullopt;
-    plane.lateral = beside / length;
-    plane.axial = above / length;
-    plane.offset = support_of_round(plane.lateral, plane.axial);
+    const Both beside =
+        round_->major < 0.0 ? rho - round_->major : larger(rho - round_->major, both(0.0));
+    const Both above = z - round_->centre;
+    const Both length = square_root(beside * beside + above * above);
+    const Both wanted = above / length;
+    at.axial = larger(smaller(wanted, both(most_axial_)), both(least_axial_));
+    at.lateral = square_root(larger(1.0 - at.axial * at.axial, both(0.0)));
+    offset = at.lateral * round_->major + at.axial * round_->centre + round_->radius;
+    // A plane that touches a convex body where the round face is has all of the body on one side.
+    if (!body_->is_convex()) {
+      offset = Both{support(at.lateral[0], at.axial[0]), support(at.lateral[1], at.axial[1])};
+    }
   }
-  if (plane.lateral == 0.0) return plane;
-  constexpr double kOnAxis = 1e-9;  // mm
-  if (rho < kOnAxis) return std::nullopt;
-  plane.side = across / rho;
-  return plane;
+  at.normal = at.lateral * axis.cross(at.across) + at.axial * axis;
+  at.height = at.lateral * rho + at.axial * z - offset;
+  return at;
 }
 
-Overreach SeparatingPlane::overreach(const PoseGroup& group, double slack) const {
+BothVec SeparatingPlane::way_to_end(const BothVec& m, const BothVec& axis) const {
+  const Both z = m.dot(axis);
+  const BothVec across = m - z * axis;
+  if (round_ == nullptr) return across;
+  const BothVec up = (z - round_->centre) * axis;
+  if (round_->major == 0.0) return across + up;
+  const Both rho = larger(square_root(across.dot(across)), both(kOnAxis));
+  const Both beside =
+      round_->major < 0.0 ? rho - round_->major : larger(rho - round_->major, both(0.0));
+  return (beside / rho) * across + up;
+}
+
+Overreach SeparatingPlane::overreach(const GroupPair& groups, double slack) const {
   if (body_ == nullptr) return {};
-  const std::optional<SupportingPlane> plane = touching(group.representative);
-  if (!plane) return {};
-  const Vec3 n = plane->normal_across(group.representative.axis);
-  const double fall = n.dot(beyond_) - normal_turn(group);
-  if (!(fall > 0.0)) return {};
-  const Vec3 m = end_ - group.representative.tip;
-  const double room = n.dot(m) - plane->offset + slack;
+  const BothVec axis = both(groups.axis);
+  const BothVec one = both(groups.first_column), two = both(groups.second_column);
+  const BothVec three = one.cross(two);
+  const Both half_1 = both(groups.tip_half[0]), half_2 = both(groups.tip_half[1]),
+             half_3 = both(groups.tip_half[2]);
+  const Both turn = both(groups.axis_shift);
+  BothVec m = both(end_) - both(groups.tip);
+  // From the middle to the place in the box that is nearest to touching the end there.
+  Both c_1 = both(0.0), c_2 = both(0.0), c_3 = both(0.0), went = both(0.0);
+  if (round_ != nullptr || lateral_ > 0.0) {
+    const BothVec way = way_to_end(m, axis);
+    const auto within = [](Both x, Both half) { return larger(smaller(x, half), -half); };
+    c_1 = within(way.dot(one), half_1);
+    c_2 = within(way.dot(two), half_2);
+    c_3 = within(way.dot(three), half_3);
+    m = m - (c_1 * one + c_2 * two + c_3 * three);
+    went = magnitude(c_1) + magnitude(c_2) + magnitude(c_3);
+  }
+  const Planes at = touching(m, axis);
+  const Both n_1 = at.normal.dot(one), n_2 = at.normal.dot(two), n_3 = at.normal.dot(three);
+  Both lost = magnitude(n_1) * half_1 - n_1 * c_1 + magnitude(n_2) * half_2 - n_2 * c_2 +
+              magnitude(n_3) * half_3 - n_3 * c_3;
+  if (turn[0] > 0.0 || turn[1] > 0.0) {
+    const BothVec by_axis = at.lateral * at.across.cross(m) + at.axial * m;
+    constexpr double kColumns = 1.000001;  // of the frame are units within 1e-7
+    lost = lost + magnitude(by_axis.dot(one)) * both(groups.axis_half[0]) +
+           magnitude(by_axis.dot(two)) * both(groups.axis_half[1]) +
+           magnitude(by_axis.dot(three)) * both(groups.axis_half[2]) + both(groups.tip_turn) +
+           kColumns * went * turn;
+  }
+  const Both fall = at.normal.dot(both(beyond_)) - turn;
+  const Both infinite = both(std::numeric_limits<double>::infinity());
+  const Both height = at.height + slack;
   constexpr double kRounding = 1e-12;  // mm
-  return {(most_lost(*plane, group, m) - room) / fall, room < 0.0, kRounding / fall};
+  return {fall > 0.0 ? (lost - height) / fall : infinite, height, kRounding / fall};
 }
 
 double SeparatingPlane::along(const ToolPose& pose) const {
   if (body_ == nullptr) return 0.0;
-  const std::optional<SupportingPlane> plane = touching(pose);
-  return plane ? plane->normal_across(pose.axis).dot(beyond_) : 0.0;
+  return touching(both(end_ - pose.tip), both(pose.axis)).normal.dot(both(beyond_))[0];
 }
 
-bool SeparatingPlane::holds(const SegmentMotion& motion, double slack) const {
-  constexpr double kFarTurned = 0.05;  // plane_departure() holds up to here
-  if (body_ == nullptr || motion.turn() > kFarTurned) return false;
-  const ToolPose from = motion.at(0.0), to = motion.at(1.0);
-  const std::optional<SupportingPlane> plane = touching(from);
-  if (!plane) return false;
-  const double departure =
-      motion.turn() == 0.0
-          ? 0.0
-          : motion.plane_departure(1.0, std::max((end_ - from.tip).norm(), (end_ - to.tip).norm()),
-                                   (to.tip - from.tip).norm());
-  const Vec3 n = plane->normal_across(from.axis);
-  if (!(n.dot(end_ - from.tip) - plane->offset + slack >= departure)) return false;
-  if (!(n.dot(beyond_) > 1.1 * motion.turn())) return false;
-  return plane->height(to, end_) + slack >= departure;
+double SeparatingPlane::room(const ToolPose& from, const ToolPose& to, double slack) const {
+  constexpr double kUnknown = -std::numeric_limits<double>::infinity();
+  if (body_ == nullptr) return kUnknown;
+  const auto lanes = [](const Vec3& a, const Vec3& b) {
+    return BothVec{{a.x(), b.x()}, {a.y(), b.y()}, {a.z(), b.z()}};
+  };
+  const BothVec m = lanes(end_ - from.tip, end_ - to.tip);
+  const Planes at = touching(m, lanes(from.axis, to.axis));
+  const Both height = at.height + slack;
+  const double lower = std::min(height[0], height[1]);
+  if (lower < 0.0) return lower;
+  const Vec3 step = to.tip - from.tip, turn = to.axis - from.axis;
+  // What the height loses by a straight line from either end to the other, and by turning.
+  Both lost = Both{1.0, -1.0} * at.normal.dot(both(step));
+  double bend = 0.0, chord = 0.0;
+  if (turn != Vec3::Zero()) {
+    constexpr double kFarTurned = 0.05;
+    const double chord2 = turn.squaredNorm();
+    if (chord2 > kFarTurned * kFarTurned) return kUnknown;
+    chord = std::sqrt(chord2);
+    const BothVec by_axis = at.lateral * at.across.cross(m) + at.axial * m;
+    lost = lost - Both{1.0, -1.0} * by_axis.dot(both(turn)) + step.norm() * chord;
+    // From its chord the axis is never farther than turn^2 / 8, and 1.01 is more than the turn has
+    // over the chord.
+    bend = 1.01 / 8.0 * chord2 * square_root(larger(m.dot(m), both(0.0)))[0] +
+           1.01 / 8.0 * chord2 * step.norm();
+  }
+  const Both fall = at.normal.dot(both(beyond_));
+  if (!(fall[0] > chord) || !(fall[1] > chord)) return kUnknown;
+  const double here = height[0] - bend, here_there = here - lost[0];
+  const double there = height[1] - bend, there_here = there - lost[1];
+  if (here < 0.0 || there < 0.0) return std::min(here, there);
+  if (here_there >= 0.0 || there_here >= 0.0) return 0.0;
+  // Each line falls below 0 before the other end: where they meet it must not be so.
+  const double meet = here * there - here_there * there_here;
+  return meet >= 0.0 ? 0.0 : std::max(here_there, there_here);
 }
 
 }  // namespace frustum::cutter

@@ -4,21 +4,20 @@
 // Model    : where a cutter touches the end of what is covered it has a tangent plane. Another
 //            cutter near by has its own plane of that latitude, turned about its axis towards the
 //            end; if the end is beyond that plane, and the ray leaves it, then this cutter covers
-//            nothing beyond the end. For a group of poses, or the motion from pose to pose, the
-//            plane's distance is bounded
+//            nothing beyond the end. For the poses of groups, or of a motion, the height of the end
+//            over the plane is bounded as in group_bound.hpp, from the pose of the box that comes
+//            nearest
 // Units    : mm; frame: workpiece
 // Errors   : none; false says nothing
 // Accuracy : proofs hold but for kSearchTolerance normal to the surface, or for another slack
 #pragma once
 
 #include <limits>
-#include <optional>
 
 #include "cutter/body/body.hpp"
-#include "cutter/search/pose_tree.hpp"
+#include "cutter/search/pose_group.hpp"
 #include "cutter/sweep/segment_motion.hpp"
 #include "cutter/sweep/segment_sweep.hpp"
-#include "cutter/sweep/supporting_plane.hpp"
 
 namespace frustum::cutter {
 
@@ -30,11 +29,14 @@ struct EndContact {
   ToolPose pose{};
 };
 
-// How far along the ray a group may cover more than the end, and whether its representative may.
+// Of two groups: how far along the ray they may cover more than the end (mm; not positive: surely
+// nothing), and how far the end is beyond the plane of a cutter in their middle (less than 0: it
+// may cover more).
 struct Overreach {
-  double most = std::numeric_limits<double>::infinity();  // mm; not positive: surely nothing
-  bool by_representative = true;
-  double rounding = 0.0;  // of `most` (mm): what 1e-12 mm normal to the plane makes along the ray
+  Both most = both(std::numeric_limits<double>::infinity());
+  Both height = both(-1.0);
+  Both rounding =
+      both(0.0);  // of `most` (mm): what 1e-12 mm normal to the plane makes along the ray
 };
 
 class SeparatingPlane {
@@ -46,25 +48,43 @@ class SeparatingPlane {
 
   // `slack`: so much beyond the plane, normal to it, does not count (mm). Negative: the proof is
   // that the cutter stays so much before the end.
-  [[nodiscard]] Overreach overreach(const PoseGroup& group, double slack = kSearchTolerance) const;
+  [[nodiscard]] Overreach overreach(const GroupPair& groups, double slack = kSearchTolerance) const;
   // Cosine between the ray and the plane's normal when the body is at the pose; 0: no plane.
   [[nodiscard]] double along(const ToolPose& pose) const;
-  // Whether the moving body surely covers nothing beyond the end.
-  [[nodiscard]] bool holds(const SegmentMotion& motion, double slack = kSearchTolerance) const;
+  // The end is at least so far beyond the plane (mm) while the body moves from pose to pose; if it
+  // is not less than 0, the body surely covers nothing beyond the end. Where that cannot be told it
+  // is less than 0.
+  [[nodiscard]] double room(const ToolPose& from, const ToolPose& to,
+                            double slack = kSearchTolerance) const;
+  [[nodiscard]] bool holds(const ToolPose& from, const ToolPose& to,
+                           double slack = kSearchTolerance) const {
+    return room(from, to, slack) >= 0.0;
+  }
+  [[nodiscard]] bool holds(const SegmentMotion& motion) const {
+    return holds(motion.at(0.0), motion.at(1.0));
+  }
 
  private:
-  // The plane that touches the body at the pose, perpendicular to the way to the end.
-  [[nodiscard]] std::optional<SupportingPlane> touching(const ToolPose& pose) const;
+  // The planes of two cutters towards the end, which is at `m` from their tips.
+  struct Planes {
+    Both axial, lateral;
+    BothVec across;  // unit vectors across the meridians
+    BothVec normal;
+    Both height;  // of the end above the plane
+  };
+  [[nodiscard]] Planes touching(const BothVec& m, const BothVec& axis) const;
+  // From the tip to where it is nearest to the end, as if it could go anywhere.
+  [[nodiscard]] BothVec way_to_end(const BothVec& m, const BothVec& axis) const;
   [[nodiscard]] double support(double lateral, double axial) const;
-  [[nodiscard]] double support_of_round(double lateral, double axial) const;
 
   const Body* body_ = nullptr;  // null: no proof
   Vec3 end_ = Vec3::Zero();
   Vec3 beyond_ = Vec3::Zero();  // unit, along the ray, away from what is covered
   // Latitude of the plane: fixed on flat, cylindrical and conical faces, on round ones towards the
-  // end.
+  // end, but on the face.
   double axial_ = 0.0, lateral_ = 0.0, offset_ = 0.0;
   const Zone* round_ = nullptr;
+  double least_axial_ = -1.0, most_axial_ = 1.0;
 };
 
 }  // namespace frustum::cutter

@@ -99,15 +99,6 @@ Result<SweptCutter> SweptCutter::sweep(ToolPath path, std::map<int, Cutter> tool
 SweptCutter::SweptCutter(ToolPath path, std::map<int, Cutter> tools)
     : path_(std::move(path)),
       tools_(std::make_shared<const std::map<int, Cutter>>(std::move(tools))) {
-  body_of_block_.reserve(path_.blocks.size());
-  for (const auto& block : path_.blocks) body_of_block_.push_back(&tools_->at(block.tool).body());
-  boxes_.reserve(path_.segments.size());
-  for (const PathSegment& segment : path_.segments) {
-    const Body& body = *body_of_block_[segment.block];
-    boxes_.push_back(swept_box({0.0, body.height(), body.max_radius()},
-                               SegmentMotion(path_, segment, body.reach())));
-  }
-
   std::map<int, std::vector<std::uint32_t>> segments_of_tool;
   for (std::uint32_t i = 0; i < path_.segments.size(); ++i) {
     segments_of_tool[path_.blocks[path_.segments[i].block].tool].push_back(i);
@@ -116,14 +107,19 @@ SweptCutter::SweptCutter(ToolPath path, std::map<int, Cutter> tools)
   for (auto& [number, segments] : segments_of_tool) {
     const Body& body = tools_->at(number).body();
     accuracy_ = std::max(accuracy_, accuracy_of(body));
-    sweeps.push_back(
-        {.body = &body, .tree = PoseTree(path_, boxes_, std::move(segments), body.reach())});
+    sweeps.push_back({.body = &body, .tree = PoseTree(path_, std::move(segments), body)});
   }
   sweeps_ = std::make_shared<const std::vector<ToolSweep>>(std::move(sweeps));
 }
 
 const Body& SweptCutter::body_of(std::uint32_t segment) const {
-  return *body_of_block_[path_.segments[segment].block];
+  return tools_->at(path_.blocks[path_.segments[segment].block].tool).body();
+}
+
+Box SweptCutter::box(std::uint32_t segment) const {
+  const Body& body = body_of(segment);
+  return swept_box({0.0, body.height(), body.max_radius()},
+                   SegmentMotion(path_, path_.segments[segment], body.reach()));
 }
 
 IntervalSet SweptCutter::along(const Ray& ray, RaySpan span, std::uint32_t first_excluded) const {
@@ -146,7 +142,7 @@ std::vector<IntervalSet> SweptCutter::along_all(std::span<const Ray> rays,
     return all;
   }
   std::vector<std::vector<SweptInterval>> cover(rays.size());
-  const TileQuestion question{&path_, body_of_block_, rays, spans, row, first_excluded};
+  const TileQuestion question{&path_, tools_.get(), rays, spans, row, first_excluded};
   for (const ToolSweep& sweep : *sweeps_) extend_swept_intervals(question, sweep, cover);
   for (std::size_t r = 0; r < rays.size(); ++r) {
     if (!cover[r].empty()) all[r] = intervals_of(cover[r], spans[r]);
@@ -175,7 +171,7 @@ std::optional<SweepContact> SweptCutter::end_of_void(const Ray& ray, double from
     const std::span<const std::uint32_t> groups =
         likely.near != nullptr ? std::span<const std::uint32_t>(likely.near->groups[tool])
                                : std::span(&kRoot, 1);
-    if (groups.empty() || sweep.tree.groups().empty()) continue;
+    if (groups.empty() || sweep.tree.empty()) continue;
     std::array<std::uint32_t, kMostFirst> first{};
     std::size_t count = 0;
     for (const EndTag tag : likely.segments) {
@@ -203,22 +199,22 @@ SweptNear SweptCutter::near(const Vec3& centre, double radius, std::uint32_t fir
   std::vector<std::uint32_t> open;
   for (std::size_t tool = 0; tool < sweeps_->size(); ++tool) {
     const ToolSweep& sweep = (*sweeps_)[tool];
-    const auto groups = sweep.tree.groups();
     open.clear();
     if (within != nullptr) {
       open = within->groups[tool];
-    } else if (!groups.empty()) {
+    } else if (!sweep.tree.empty()) {
       open.push_back(0);
     }
     while (!open.empty()) {
       const std::uint32_t index = open.back();
       open.pop_back();
-      const PoseGroup& group = groups[index];
+      const PoseGroup group = sweep.tree.group(index);
       if (group.earliest >= first_excluded) continue;
       const Vec3 beyond =
           (group.box.min - centre).cwiseMax(centre - group.box.max).cwiseMax(Vec3::Zero());
       if (beyond.squaredNorm() > radius * radius) continue;
-      if (sweep.body->distance(group.representative, centre) - group.shift > radius) continue;
+      if (sweep.body->distance(group.representative(path_), centre) - group.shift > radius)
+        continue;
       if (group.count == 0 && group.shift > radius) {
         open.push_back(group.children + 1);
         open.push_back(group.children);
@@ -284,17 +280,16 @@ double SweptCutter::clearance(const Vec3& point, std::uint32_t first, std::uint3
                               double enough) const {
   double least = enough;
   for (const ToolSweep& sweep : *sweeps_) {
-    const auto groups = sweep.tree.groups();
     std::vector<std::uint32_t> open;
-    if (!groups.empty()) open.push_back(0);
+    if (!sweep.tree.empty()) open.push_back(0);
     while (!open.empty()) {
       const std::uint32_t index = open.back();
       open.pop_back();
-      const PoseGroup& group = groups[index];
+      const PoseGroup group = sweep.tree.group(index);
       const Vec3 beyond =
           (group.box.min - point).cwiseMax(point - group.box.max).cwiseMax(Vec3::Zero());
       if (beyond.norm() >= least) continue;
-      const double distance = sweep.body->distance(group.representative, point);
+      const double distance = sweep.body->distance(group.representative(path_), point);
       if (distance - group.shift >= least) continue;
       if (group.count == 0) {
         open.push_back(group.children + 1);

@@ -92,8 +92,8 @@ class SweptCutter {
   // and kMissedDepth; with concave cutters more (concave_sweep.hpp).
   [[nodiscard]] double accuracy() const { return accuracy_; }
 
-  // Box of the segment's sweep, and of the whole path's.
-  [[nodiscard]] const Box& box(std::uint32_t segment) const { return boxes_[segment]; }
+  // Of the segment's sweep.
+  [[nodiscard]] Box box(std::uint32_t segment) const;
 
   [[nodiscard]] const kinematics::ToolPath& path() const { return path_; }
   [[nodiscard]] const Cutter& tool(int number) const { return tools_->at(number); }
@@ -106,8 +106,6 @@ class SweptCutter {
 
   kinematics::ToolPath path_;
   std::shared_ptr<const std::map<int, Cutter>> tools_;  // shared by copies: profiles are pointed to
-  std::vector<const Body*> body_of_block_;
-  std::vector<Box> boxes_;
   double accuracy_ = 0.0;
   std::shared_ptr<const std::vector<ToolSweep>> sweeps_;
 };

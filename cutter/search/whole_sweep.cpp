@@ -28,13 +28,18 @@ double depth_of(const SweptIntervalEnd& end, bool leaving) { return leaving ? en
 
 SeparatingPlane EndPlanes::at(const SweptIntervalEnd& end, bool leaving) const {
   const auto& segment = question_.path->segments[end.segment];
-  const SegmentMotion motion(*question_.path, segment, body_.reach());
+  const ToolPose &from = question_.path->from(segment), &to = question_.path->to(segment);
+  if (end.t == 0.0 || end.t == 1.0) {
+    const ToolPose& pose = end.t == 0.0 ? from : to;
+    return {body_, question_.ray, {end.s, end.section, end.face, pose}, leaving};
+  }
+  const SegmentMotion motion(from, to, body_.reach());
   return {body_, question_.ray, {end.s, end.section, end.face, motion.at(end.t)}, leaving};
 }
 
 WholeSweep::WholeSweep(const RayQuestion& question, const ToolSweep& sweep, const EndPlanes& planes,
                        std::span<const SweptInterval> swept)
-    : question_(question), groups_(sweep.tree.groups()), planes_(planes) {
+    : question_(question), pairs_(sweep.tree.pairs()), planes_(planes) {
   pieces_.reserve(swept.size() + 4);
   for (const SweptInterval& c : swept) {
     pieces_.push_back({{.at = c.lo, .solved = true, .has_plane = true},
@@ -72,16 +77,22 @@ bool WholeSweep::behind(double depth, std::uint32_t earliest, const End& end, bo
   return earliest > end.at.segment || (end.solved && earliest == end.at.segment);
 }
 
-bool WholeSweep::wants(std::uint32_t group, const GroupReach& reach) const {
-  if (!(std::max(reach.lo, span().lo) <= std::min(reach.hi, span().hi))) return false;
-  const std::uint32_t earliest = groups_[group].earliest;
-  const double lo = reach.lo - std::max(kBoundRounding, kRoundingShare * reach.lo_slack);
-  const double hi = reach.hi + std::max(kBoundRounding, kRoundingShare * reach.hi_slack);
-  return std::ranges::none_of(pieces_, [&](const Piece& c) {
-    return (c.hi.at.s >= span().hi || behind(hi, earliest, c.hi, true)) &&
-           (c.lo.at.s <= span().lo || behind(-lo, earliest, c.lo, false)) && lo <= c.hi.at.s &&
-           hi >= c.lo.at.s;
-  });
+RaySpan WholeSweep::counted(const GroupReach& reach) {
+  return {reach.lo - std::max(kBoundRounding, kRoundingShare * reach.lo_slack),
+          reach.hi + std::max(kBoundRounding, kRoundingShare * reach.hi_slack)};
+}
+
+bool WholeSweep::wants(std::uint32_t group, const RaySpan& counted) const {
+  const auto [lo, hi] = counted;
+  if (!(std::max(lo, span().lo) <= std::min(hi, span().hi))) return false;
+  const std::uint32_t earliest = pairs_[group / 2].earliest[group % 2];
+  for (const Piece& c : pieces_) {
+    const bool held = (c.hi.at.s >= span().hi || behind(hi, earliest, c.hi, true)) &&
+                      (c.lo.at.s <= span().lo || behind(-lo, earliest, c.lo, false)) &&
+                      lo <= c.hi.at.s && hi >= c.lo.at.s;
+    if (held) return false;
+  }
+  return true;
 }
 
 bool WholeSweep::wants_piece(std::uint32_t, double lo, double hi) const {
@@ -100,14 +111,18 @@ const SeparatingPlane& WholeSweep::plane_at(End& end, bool leaving) const {
   return end.plane;
 }
 
-bool WholeSweep::held_by(End& end, const PoseGroup& group, bool leaving) const {
-  const Overreach over = plane_at(end, leaving).overreach(group, 0.0);
-  if (!(over.most < kInfinity)) return false;
-  return behind(depth_of(end.at, leaving) + over.most + kBoundRounding + over.rounding,
-                group.earliest, end, leaving);
+WholeSweep::Held WholeSweep::held_by(End& end, const GroupPair& groups, bool leaving) const {
+  const Overreach over = plane_at(end, leaving).overreach(groups, 0.0);
+  Held held{};
+  for (std::size_t half = 0; half < 2; ++half) {
+    held[half] = over.most[half] < kInfinity && behind(depth_of(end.at, leaving) + over.most[half] +
+                                                           kBoundRounding + over.rounding[half],
+                                                       groups.earliest[half], end, leaving);
+  }
+  return held;
 }
 
-bool WholeSweep::held_by(End& end, std::uint32_t segment, const SegmentMotion& motion,
+bool WholeSweep::held_by(End& end, std::uint32_t segment, const ToolPose& from, const ToolPose& to,
                          bool leaving) const {
   if (end.solved && segment == end.at.segment) return true;
   constexpr double kRounding = kRoundingShare * kSearchTolerance;
@@ -115,25 +130,34 @@ bool WholeSweep::held_by(End& end, std::uint32_t segment, const SegmentMotion& m
   if (segment > end.at.segment) {
     const double depth = depth_of(end.at, leaving);
     if (step_of(depth + 2.0 * kRounding / kGrazingEnd) == step_of(depth) &&
-        plane.along(motion.at(0.0)) > kGrazingEnd) {
-      return plane.holds(motion, kRounding);
+        plane.along(from) > kGrazingEnd) {
+      return plane.holds(from, to, kRounding);
     }
   }
-  return plane.holds(motion, -1.01 * kSearchTolerance);
+  return plane.holds(from, to, -1.01 * kSearchTolerance);
 }
 
-GroupLimit WholeSweep::limit(const PoseGroup& group) {
-  return {.holds = std::ranges::any_of(pieces_, [&](Piece& c) {
-            return (c.hi.at.s >= span().hi || held_by(c.hi, group, true)) &&
-                   (c.lo.at.s <= span().lo || held_by(c.lo, group, false));
-          })};
+PairLimit WholeSweep::limit(const GroupPair& groups) {
+  Held all{};
+  for (Piece& c : pieces_) {
+    Held by{true, true};
+    if (c.hi.at.s < span().hi) by = held_by(c.hi, groups, true);
+    if ((by[0] || by[1]) && c.lo.at.s > span().lo) {
+      const Held by_lo = held_by(c.lo, groups, false);
+      by = {by[0] && by_lo[0], by[1] && by_lo[1]};
+    }
+    all = {all[0] || by[0], all[1] || by[1]};
+    if (all[0] && all[1]) break;
+  }
+  return {GroupLimit{.holds = all[0]}, GroupLimit{.holds = all[1]}};
 }
 
-bool WholeSweep::holds(std::uint32_t segment, const SegmentMotion& motion) {
-  return std::ranges::any_of(pieces_, [&](Piece& c) {
-    return (c.hi.at.s >= span().hi || held_by(c.hi, segment, motion, true)) &&
-           (c.lo.at.s <= span().lo || held_by(c.lo, segment, motion, false));
+double WholeSweep::room(std::uint32_t segment, const ToolPose& from, const ToolPose& to) {
+  const bool held = std::ranges::any_of(pieces_, [&](Piece& c) {
+    return (c.hi.at.s >= span().hi || held_by(c.hi, segment, from, to, true)) &&
+           (c.lo.at.s <= span().lo || held_by(c.lo, segment, from, to, false));
   });
+  return held ? 0.0 : -1.0;
 }
 
 std::span<const Chord> WholeSweep::known() {

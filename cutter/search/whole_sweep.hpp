@@ -11,6 +11,7 @@
 // Source   : ours
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -52,10 +53,11 @@ class WholeSweep {
   [[nodiscard]] static bool wants_lo(double) { return true; }
   [[nodiscard]] static double promise(const GroupReach& reach) { return reach.hi - reach.lo; }
   [[nodiscard]] int change() const { return change_; }
-  [[nodiscard]] bool wants(std::uint32_t group, const GroupReach& reach) const;
+  [[nodiscard]] static RaySpan counted(const GroupReach& reach);
+  [[nodiscard]] bool wants(std::uint32_t group, const RaySpan& counted) const;
   [[nodiscard]] bool wants_piece(std::uint32_t group, double lo, double hi) const;
-  [[nodiscard]] GroupLimit limit(const PoseGroup& group);
-  [[nodiscard]] bool holds(std::uint32_t segment, const SegmentMotion& motion);
+  [[nodiscard]] PairLimit limit(const GroupPair& groups);
+  [[nodiscard]] double room(std::uint32_t segment, const ToolPose& from, const ToolPose& to);
   [[nodiscard]] std::span<const Chord> known();
   // Solutions do not depend on what is covered already.
   [[nodiscard]] static std::span<const Chord> floors() { return {}; }
@@ -76,13 +78,15 @@ class WholeSweep {
   [[nodiscard]] static bool wins(const End& a, const End& b, bool leaving);
   [[nodiscard]] static bool behind(double depth, std::uint32_t earliest, const End& end,
                                    bool leaving);
-  [[nodiscard]] bool held_by(End& end, const PoseGroup& group, bool leaving) const;
-  [[nodiscard]] bool held_by(End& end, std::uint32_t segment, const SegmentMotion& motion,
-                             bool leaving) const;
+  // Whether each of two groups is, and a segment between two poses.
+  using Held = std::array<bool, 2>;
+  [[nodiscard]] Held held_by(End& end, const GroupPair& groups, bool leaving) const;
+  [[nodiscard]] bool held_by(End& end, std::uint32_t segment, const ToolPose& from,
+                             const ToolPose& to, bool leaving) const;
   const SeparatingPlane& plane_at(End& end, bool leaving) const;
 
   const RayQuestion& question_;
-  std::span<const PoseGroup> groups_;
+  std::span<const GroupPair> pairs_;
   const EndPlanes& planes_;
   std::vector<Piece> pieces_{};
   std::vector<Chord> known_{};

@@ -163,23 +163,31 @@ class HighestEnd {
     note(b);
     const double dt = b.t - a.t;
     if (depth > 60 || dt * motion_.travel() < kSameState) return;
+    if (motion_.turn() > 0.0 && surely_no_deeper(a, b)) return;
     const double along = std::max(a.plane.along, b.plane.along);
     const double enough = std::max(best_value_, floor_) + kSearchTolerance / along;
     const Roof roof(a.plane, a.plane.crossing(b.pose, ray_), b.plane,
                     b.plane.crossing(a.pose, ray_), motion_, dt);
-    if (roof.top() <= enough || (depth >= kOftenHalved && surely_no_deeper(a, b))) return;
+    if (roof.top() <= enough) return;
     if (motion_.turn() == 0.0 && depth >= kOftenHalved) {
+      if (surely_no_deeper(a, b)) return;
       climb(a.t, b.t);
       return;
+    }
+    if (depth == 0) {
+      if (const auto top = summit_between(a, b, 0.25 * kSearchTolerance)) {
+        close_in(a, *top, 1);
+        close_in(*top, b, 1);
+        return;
+      }
+      if (gap_) return;
     }
     if (++looks_ > kMostLooks) return;
     const double x = roof.place_to_look(depth);
     const double t = a.t + std::clamp(x, 1e-3, 1.0 - 1e-3) * dt;
-    ChordSample middle{.t = t, .pose = motion_.at(t)};
-    middle.chord = body_.chord(middle.pose, ray_);
+    const ChordSample middle = sample_at(t);
     if (!middle.chord) {
-      // Else it is within rounding of the surface, or of an end of the run.
-      if (motion_.turn() > 0.0 && dt * motion_.travel() > 10.0 * kTangentMotion) gap_ = t;
+      note_gap(t, dt);
       return;
     }
     const Touched m = touched(middle);
@@ -188,11 +196,61 @@ class HighestEnd {
     close_in(m, b, depth + 1);
   }
 
+  // How fast the end of the chord moves there, counted upwards: the envelope condition where 0.
+  [[nodiscard]] double slope_of(const Touched& at) const {
+    const Vec3 point = ray_.at(at.plane.direction * at.plane.value);
+    return at.plane.normal_across(at.pose.axis).dot(motion_.velocity(point, at.t)) /
+           at.plane.along;
+  }
+
+  // Where the end of the chord is highest between two moments, where it rises at the one and falls
+  // at the other, smoothly: until what is left of the slope makes less than `enough` up to either.
+  // Nothing where it does not get there soon.
+  [[nodiscard]] std::optional<Touched> summit_between(const Touched& a, const Touched& b,
+                                                      double enough) {
+    constexpr int kSoon = 8;
+    struct Place {
+      double t, slope;
+    };
+    Place rises{a.t, slope_of(a)}, falls{b.t, slope_of(b)};
+    if (!(rises.slope > 0.0 && falls.slope < 0.0)) return std::nullopt;
+    // The secant through the last two, the first of which is the flatter end.
+    Place last = rises, before = falls;
+    if (last.slope > -before.slope) std::swap(last, before);
+    for (int i = 0; i < kSoon; ++i) {
+      const double t = last.t - last.slope * (last.t - before.t) / (last.slope - before.slope);
+      if (!(rises.t < t && t < falls.t) || ++looks_ > kMostLooks) return std::nullopt;
+      const ChordSample sample = sample_at(t);
+      if (!sample.chord) {
+        note_gap(t, b.t - a.t);
+        return std::nullopt;
+      }
+      const Touched here = touched(sample);
+      note(here);
+      before = last;
+      last = {t, slope_of(here)};
+      if (std::abs(last.slope) * (b.t - a.t) * here.plane.along <= enough) return here;
+      if (std::abs(last.slope) > 0.5 * std::abs(before.slope)) return std::nullopt;
+      (last.slope > 0.0 ? rises : falls) = last;
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] ChordSample sample_at(double t) const {
+    ChordSample sample{.t = t, .pose = motion_.at(t)};
+    sample.chord = body_.chord(sample.pose, ray_);
+    return sample;
+  }
+
+  // Else it is within rounding of the surface, or of an end of the run.
+  void note_gap(double t, double dt) {
+    if (motion_.turn() > 0.0 && dt * motion_.travel() > 10.0 * kTangentMotion) gap_ = t;
+  }
+
   // Of a body that does not turn the end of the chord is a concave function of time.
   void climb(double lo, double hi) {
     const auto depth = [&](double t) {
-      ChordSample at{.t = t, .pose = motion_.at(t)};
-      at.chord = body_.chord(at.pose, ray_);
+      const ChordSample at = sample_at(t);
       if (!at.chord) return kInfinity;
       const Touched end = touched(at);
       note(end);
@@ -202,23 +260,62 @@ class HighestEnd {
   }
 
   // Whether the place that is the best so far is, at all times between two samples, above one of
-  // the planes that touch the body at them. Where rays graze, this ends what roofs over the ray
-  // cannot.
+  // the planes that touch the body at them.
   [[nodiscard]] bool surely_no_deeper(const Touched& a, const Touched& b) const {
     const double best = std::max(best_value_, floor_);
+    if (std::isinf(best)) return false;
     const Vec3 point = ray_.at(leaving_ ? best : -best);
-    const double dt = b.t - a.t;
-    const double away = std::max((point - a.pose.tip).norm(), (point - b.pose.tip).norm());
-    const double bend = motion_.plane_departure(dt, away, (b.pose.tip - a.pose.tip).norm());
-    const double a0 = a.plane.height(a.pose, point), a1 = a.plane.height(b.pose, point);
-    const double b0 = b.plane.height(a.pose, point), b1 = b.plane.height(b.pose, point);
-    double least = std::max(std::min(a0, a1), std::min(b0, b1));
-    // Where a's falls below b's.
-    const double x = (a0 - b0) / ((a0 - b0) + (b1 - a1));
-    if (x > 0.0 && x < 1.0) {
-      least = std::max(least, std::min({std::max(a0, b0), std::max(a1, b1), a0 + x * (a1 - a0)}));
+    const double from_a = height_holds(a, b.pose, point), from_b = height_holds(b, a.pose, point);
+    return from_a > 0.0 && from_b > 0.0 && from_a + from_b >= 1.0;
+  }
+
+  // From a sample towards a pose: for what share of the way the point is surely not below the plane
+  // that touches the body there, less kSearchTolerance, nor what is beyond it along the ray. The
+  // height of the point is at least lateral w.(m x a) + axial m.a - offset (group_bound.hpp has the
+  // reason), with w as it is there: of straight motions of tip and axis a parabola in time.
+  [[nodiscard]] static double share_above(double height, double rise, double bend) {
+    if (!(height >= 0.0)) return 0.0;
+    const double root2 = rise * rise - 4.0 * bend * height;
+    if (height + rise + bend >= 0.0 && (bend <= 0.0 || rise >= 0.0 || -rise >= 2.0 * bend ||
+                                        root2 <= 0.0)) {
+      return 1.0;
     }
-    return least - bend >= -kSearchTolerance;
+    // The first of the roots ahead.
+    const double q = std::sqrt(std::max(0.0, root2)) - rise;
+    return q > 0.0 ? std::min(1.0, 2.0 * height / q) : 1.0;
+  }
+  [[nodiscard]] double height_holds(const Touched& from, const ToolPose& to,
+                                    const Vec3& point) const {
+    const TangentPlane& plane = from.plane;
+    const Vec3& a = from.pose.axis;
+    const Vec3 m = point - from.pose.tip, step = to.tip - from.pose.tip, turn = to.axis - a;
+    const Vec3 w = plane.side.cross(a);
+    const Vec3 normal = plane.normal_across(a);
+    const Vec3 by_axis = plane.lateral * w.cross(m) + plane.axial * m;
+    const double turned2 = turn.squaredNorm();
+    constexpr double kFarTurned = 0.06;  // a sample and the next are nearer
+    if (turned2 > kFarTurned * kFarTurned || !(plane.along * plane.along > turned2)) return 0.0;
+    // Where the axis is on its great circle, a share u of the way: u (1 - u) turn^2 / 2 outside of
+    // the chord, within turn^4 / 40, and less than turn^3 / 100 beside it. (Turn and chord: the
+    // difference is in these numbers.)
+    const Vec3 outwards = a + 0.5 * turn;
+    const double arc = 0.5 * turned2 * by_axis.dot(outwards);
+    const double beside = turned2 * std::sqrt(turned2) / 100.0;
+    const double sideways =
+        std::abs(plane.lateral * outwards.cross(w).dot(step) + plane.axial * outwards.dot(step));
+    // w is across the meridian there only, and |m x a| at least w.(m x a) / |w x a|.
+    const double across = std::abs(w.dot(turn)), far = m.norm(), run = step.norm();
+    const Vec3 there = point - to.tip;
+    const double least_rho = std::min(w.dot(m.cross(a)), w.dot(there.cross(to.axis))) -
+                             run * std::sqrt(turned2) - far * turned2 / 7.9;
+    const double turns = 0.5 * plane.lateral * std::max(0.0, least_rho) * across * across;
+    const double unknown = turned2 / 7.9 * sideways + beside * (far + run) +
+                           std::abs(arc) * turned2 / 20.0 + far * across * beside;
+    const double height = normal.dot(m) - plane.offset + kSearchTolerance - unknown;
+    const double rise = by_axis.dot(turn) + arc - normal.dot(step);
+    const double bend =
+        turns - arc - (plane.lateral * w.dot(step.cross(turn)) + plane.axial * step.dot(turn));
+    return share_above(height, rise, bend);
   }
 
   const Profile& body_;
