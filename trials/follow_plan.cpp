@@ -257,7 +257,7 @@ class Planner {
       point.why_not = "other cuts or the blank's surface are too near";
       return;
     }
-    point.local_drift = (1.0 - window.others.per_scale) / window.others.per_drift;
+    point.others = window.others;
     widen(window, pieces, own, at, *face, contact.tool);
     if (window.pieces == 0) {
       point.why_not = "the cutter hardly leaves the surface again";

@@ -34,7 +34,7 @@ struct FollowedPoint {
   std::uint32_t window = 0;  // if it is followed
   // Its surroundings, of the list of pieces; none: count is 0.
   std::uint32_t first_piece = 0, piece_count = 0;
-  double local_drift = 0.0;  // mm: as far as the contact may go in them, at least
+  Closeness others{};        // of what is not in them
 };
 
 struct FollowPlan {

@@ -43,7 +43,9 @@ struct LanePiece {
 struct Closeness {
   double per_scale = 0.0;   // for the errors at the limits of their laws
   double per_drift = 0.0;   // for a mm that the contact goes along the surface
-  double per_nearer = 0.0;  // for a mm that the end of the window has come nearer
+  // For a mm that the end of the window has come nearer; of others, for a mm that the contact has
+  // moved in the workpiece, where the blank's surface stays.
+  double per_nearer = 0.0;
 };
 
 struct ProbeWindow {

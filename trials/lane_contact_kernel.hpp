@@ -144,7 +144,7 @@ class ContactSearch {
     const Number drifted = drift();
     doubt_if(missed_ < 1e-9, Doubt::unsettled);
     doubt_if((best_.height > face_.z_lo) & (best_.height < face_.z_hi), Doubt::off_face);
-    doubt_if(keeps_away(window_.others, drifted, all(0.0)), Doubt::others);
+    doubt_if(keeps_away(window_.others, drifted, moved()), Doubt::others);
     if (window_.is_open_before) {
       const Number nearer = window_.at_first - end_distance(pieces_[0].node[0], drifted);
       doubt_if(keeps_away(window_.before, drifted, nearer), Doubt::before);
@@ -247,6 +247,12 @@ class ContactSearch {
     const Vector carried = sum(difference(own_tip_, tip),
                                  difference(times(z, turn), times(dot(m, turn), axis)));
     const Vector off = difference(difference(touched_, touched), carried);
+    return root(dot(off, off));
+  }
+
+  // The contact, in the workpiece.
+  Number moved() const {
+    const Vector off = difference(touched_, all(window_.touched.data()));
     return root(dot(off, off));
   }
 

@@ -36,6 +36,48 @@ BodyDistance from_body(const cutter::Body& body, const ToolPose& pose, const Vec
   return d;
 }
 
+// The least distance of the moving body from a point, from below: the distance of a cutter that
+// moves straight is a convex function of time, so that its tangents at two moments hold it from
+// below in between, but for what turning bends.
+class LeastDistance {
+ public:
+  LeastDistance(const cutter::Body& body, const cutter::SegmentMotion& motion, const Vec3& point)
+      : body_(body), motion_(motion), point_(point) {}
+
+  // Not looked into where it is more than enough.
+  [[nodiscard]] double find(const BodyDistance& begin, const BodyDistance& end,
+                            double enough) const {
+    return between({0.0, begin}, {1.0, end}, enough, 0);
+  }
+
+ private:
+  struct Moment {
+    double t = 0.0;
+    BodyDistance off{};
+  };
+  [[nodiscard]] double between(const Moment& a, const Moment& b, double enough, int depth) const {
+    const double dt = b.t - a.t;
+    const double fall = std::max(0.0, dt * a.off.out.dot(motion_.velocity(point_, a.t)));
+    const double rise = std::max(0.0, -dt * b.off.out.dot(motion_.velocity(point_, b.t)));
+    const double lower = std::min(a.off.value, b.off.value);
+    double least = lower;
+    if (fall > 0.0 && rise > 0.0) {
+      const double t = std::clamp((a.off.value - b.off.value + rise) / (fall + rise), 0.0, 1.0);
+      least = std::min(least, a.off.value - fall * t);
+    }
+    least -= 0.125 * motion_.bend() * dt * dt;
+    constexpr int kDeepest = 14;
+    if (depth == kDeepest || least > enough || least > 0.8 * lower || lower <= 0.0) return least;
+    const double t = 0.5 * (a.t + b.t);
+    const Moment middle{t, from_body(body_, motion_.at(t), point_)};
+    return std::min(between(a, middle, enough, depth + 1), between(middle, b, enough, depth + 1));
+  }
+
+  const cutter::Body& body_;
+  const cutter::SegmentMotion& motion_;
+  const Vec3& point_;
+};
+
 void take(Closeness& worst, const Closeness& one) {
   worst.per_scale = std::max(worst.per_scale, one.per_scale);
   worst.per_drift = std::max(worst.per_drift, one.per_drift);
@@ -167,8 +209,6 @@ SideBound WindowBounds::side(const ContactPlace& at, const LaneFace& face, int t
   return side;
 }
 
-// The distance of a cutter that moves straight is a convex function of time: its tangents at both
-// ends hold it from below, but for what turning bends.
 void WindowBounds::take_segment(Closeness& closeness, const ContactPlace& at,
                                 const kinematics::PathSegment& segment, int tool) {
   const ToolPath& path = workpiece_.removed().path();
@@ -176,19 +216,12 @@ void WindowBounds::take_segment(Closeness& closeness, const ContactPlace& at,
   const cutter::SegmentMotion motion(path, segment, body.reach());
   const ToolPose &from = path.from(segment), &to = path.to(segment);
   const BodyDistance a = from_body(body, from, at.point), b = from_body(body, to, at.point);
-  const double fall = std::max(0.0, a.out.dot(motion.velocity(at.point, 0.0)));
-  const double rise = std::max(0.0, -b.out.dot(motion.velocity(at.point, 1.0)));
-  double least = std::min(a.value, b.value);
-  if (fall > 0.0 && rise > 0.0) {
-    const double t = std::clamp((a.value - b.value + rise) / (fall + rise), 0.0, 1.0);
-    least = std::min(least, a.value - fall * t);
-  }
-  least -= 0.125 * motion.bend();
+  const double enough = 2.0 * kMostScale * 2.0 * largest_;
+  const double least = LeastDistance(body, motion, at.point).find(a, b, enough);
   if (!(least > 0.0)) {
     closeness.per_scale = closeness.per_drift = kNever;
     return;
   }
-  const double enough = 2.0 * kMostScale * 2.0 * largest_;
   if (least > enough) {
     take(closeness, {2.0 * largest_ / least, 1.0 / least, 0.0});
     return;
@@ -227,15 +260,18 @@ Closeness WindowBounds::others(const ContactPlace& at, std::uint32_t first, std:
   const ToolPath& path = workpiece_.removed().path();
   const double far = 2.0 * kMostScale * 2.0 * largest_;
   Closeness closeness{2.0 * largest_ / far, 1.0 / far, 0.0};
-  // The cutter itself clears the way from the start: the point of the ball is in it then.
+  // The cutter itself clears the way from the start: the point of the ball is in it then, and seen
+  // from this cutter moves along the surface only, but for the turn of the line of approach (mm).
+  constexpr double kTurned = 0.01;
   const Vec3 start = at.point + (line.clearance - line.travel) * line.normal;
   const double cleared =
       -workpiece_.removed().tool(tool).body().distance(at.pose, start);
+  constexpr double kLeastInside = 1e-3;  // mm: hardly cut at all
   double inside = far;
-  while (inside > largest_ && !is_inside_blank(at.point, inside)) inside *= 0.5;
-  if (!(cleared > 0.0) || !(inside > largest_)) return {kNever, kNever, 0.0};
-  take(closeness, {2.0 * largest_ / cleared, 1.0 / cleared, 0.0});
-  take(closeness, {largest_ / inside, 1.0 / inside, 0.0});
+  while (inside > kLeastInside && !is_inside_blank(at.point, inside)) inside *= 0.8;
+  if (!(cleared > 0.0) || !(inside > kLeastInside)) return {kNever, kNever, 0.0};
+  take(closeness, {kTurned / cleared, 1.0 / cleared, 0.0});
+  take(closeness, {0.0, 0.0, 1.0 / inside});
   const Vec3 room = Vec3::Constant(far);
   const Box near{at.point - room, at.point + room};
   for (std::uint32_t s = 0; s < path.segments.size(); ++s) {
