@@ -26,7 +26,8 @@ ColumnMotion::ColumnMotion(const kinematics::Machine& machine, const PopulationL
         errors_.push_back({"", ErrorName{direction, letter, location}, 1.0, carries});
       };
       share(false, false, [&](std::size_t c, const AxisErrors& unit) {
-        if (!unit.component[k].is_zero()) shares_.push_back({c, 0, 0.0, &unit.component[k], letter});
+        if (!unit.component[k].is_zero())
+          shares_.push_back({c, 0, 0.0, &unit.component[k], letter});
       });
       share(true, false, [&](std::size_t c, const AxisErrors& unit) {
         if (unit.location[k] != 0.0) shares_.push_back({c, 0, unit.location[k], nullptr, letter});

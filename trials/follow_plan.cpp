@@ -26,6 +26,9 @@ using kinematics::ToolPose;
 // so many blocks.
 constexpr double kSurroundings = 0.05;
 constexpr std::uint32_t kMostBlocks = 16;
+// Where the path comes as near as this once more (mm), that counts among them: other passes leave
+// an allowance of more.
+constexpr double kVisit = 0.12;
 // More pieces are no window: then the contact is looked for in its surroundings.
 constexpr std::uint32_t kMostWindow = 8;
 // A window is wide enough when machines at this share of the proof's limits are proven; they drift
@@ -40,11 +43,6 @@ struct Found {
   std::uint32_t block = 0;
   int tool = 0;
   double ball = 0.0;
-};
-
-// Blocks [first, last] of the surroundings.
-struct BlockRange {
-  std::uint32_t first = 0, last = 0;
 };
 
 class Planner {
@@ -88,7 +86,8 @@ class Planner {
   void find_points() {
     const double ball = 0.5 * piece_.plan.probe.ball_diameter;
     const Pose& frame = middle_.measurement.workpiece_from_datum;
-    first_segment_.assign(path_.blocks.size() + 1, static_cast<std::uint32_t>(path_.segments.size()));
+    first_segment_.assign(path_.blocks.size() + 1,
+                          static_cast<std::uint32_t>(path_.segments.size()));
     for (auto s = static_cast<std::uint32_t>(path_.segments.size()); s-- > 0;) {
       first_segment_[path_.segments[s].block] = s;
     }
@@ -107,8 +106,12 @@ class Planner {
           point.why_not = "the blank's own surface is probed";
         } else {
           const std::uint32_t block = path_.segments[*provenance->segment].block;
-          contact = Found{frame.point(planned[i].point), frame.direction(planned[i].normal),
-                          touches[i].point, block, path_.blocks[block].tool, ball};
+          contact = Found{frame.point(planned[i].point),
+                          frame.direction(planned[i].normal),
+                          touches[i].point,
+                          block,
+                          path_.blocks[block].tool,
+                          ball};
         }
         plan_.points.push_back(std::move(point));
         found_.push_back(contact);
@@ -121,31 +124,60 @@ class Planner {
     return middle_.workpiece->removed().tool(tool).body();
   }
 
-  // Blocks with poses near by, as far as the path goes on with the same tool.
+  // Blocks with poses near by, as far as the path goes on with the same tool; and where the path
+  // comes by once more.
   void find_surroundings() {
     std::set<std::uint32_t> wanted;
     for (std::size_t i = 0; i < found_.size(); ++i) {
-      BlockRange range;
+      std::vector<BlockRange> ranges;
       if (found_[i]) {
-        const Found& contact = *found_[i];
-        range = {contact.block, contact.block};
-        const auto is_far = [&](std::uint32_t pose) {
-          return body(contact.tool).distance(path_.poses[pose], contact.touched) > kSurroundings;
-        };
-        while (range.first > 0 && contact.block - range.first < kMostBlocks &&
-               goes_on(range.first - 1) && !is_far(begin_of(range.first))) {
-          --range.first;
-        }
-        while (range.last + 1 < path_.blocks.size() && range.last - contact.block < kMostBlocks &&
-               goes_on(range.last) && !is_far(end_of(range.last))) {
-          ++range.last;
-        }
+        ranges.push_back(around(found_[i]->block, *found_[i]));
+        add_other_visits(ranges, *found_[i]);
+      }
+      for (const BlockRange& range : ranges) {
         for (std::uint32_t b = range.first; b <= range.last; ++b) wanted.insert(b);
       }
-      ranges_.push_back(range);
+      ranges_.push_back(std::move(ranges));
     }
     blocks_.assign(wanted.begin(), wanted.end());
   }
+
+  [[nodiscard]] BlockRange around(std::uint32_t block, const Found& contact) const {
+    BlockRange range{block, block};
+    const auto is_far = [&](std::uint32_t pose) {
+      return body(contact.tool).distance(path_.poses[pose], contact.touched) > kSurroundings;
+    };
+    while (range.first > 0 && block - range.first < kMostBlocks && goes_on(range.first - 1) &&
+           !is_far(begin_of(range.first))) {
+      --range.first;
+    }
+    while (range.last + 1 < path_.blocks.size() && range.last - block < kMostBlocks &&
+           goes_on(range.last) && !is_far(end_of(range.last))) {
+      ++range.last;
+    }
+    return range;
+  }
+
+  void add_other_visits(std::vector<BlockRange>& ranges, const Found& contact) const {
+    constexpr std::size_t kMostVisits = 4;
+    const auto& removed = middle_.workpiece->removed();
+    const Vec3 room = Vec3::Constant(kSurroundings);
+    const Box near{contact.touched - room, contact.touched + room};
+    for (std::uint32_t s = 0; s < path_.segments.size() && ranges.size() < kMostVisits; ++s) {
+      if (!overlap(removed.box(s), near)) continue;
+      const kinematics::PathSegment& segment = path_.segments[s];
+      if (is_in(ranges, segment.block) || path_.blocks[segment.block].tool != contact.tool)
+        continue;
+      const auto is_near = [&](const ToolPose& pose) {
+        return body(contact.tool).distance(pose, contact.touched) < kVisit;
+      };
+      const ToolPose &from = path_.from(segment), &to = path_.to(segment);
+      if (is_near(from) || is_near(to) || is_near(kinematics::between(from, to, 0.5))) {
+        ranges.push_back(around(segment.block, contact));
+      }
+    }
+  }
+
   [[nodiscard]] std::uint32_t begin_of(std::uint32_t block) const {
     const std::uint32_t s = first_segment_[block];
     return s < path_.segments.size() ? path_.segments[s].first_pose
@@ -188,15 +220,51 @@ class Planner {
   }
 
   // The pieces of a point's surroundings, if all of them can be trusted.
-  [[nodiscard]] bool take_surroundings(FollowedPoint& point, const BlockRange& range) const {
-    const MotionPieces::Block& first = plan_.motion.blocks[place_of_block_.at(range.first)];
-    const MotionPieces::Block& last = plan_.motion.blocks[place_of_block_.at(range.last)];
-    point.first_piece = first.first;
-    point.piece_count = last.first + last.count - first.first;
-    for (std::uint32_t b = range.first; b <= range.last; ++b) {
-      if (!plan_.motion.blocks[place_of_block_.at(b)].is_smooth) return false;
+  [[nodiscard]] std::vector<PieceRange> pieces_of(std::span<const BlockRange> ranges) const {
+    std::vector<PieceRange> found;
+    for (const BlockRange& range : ranges) {
+      const MotionPieces::Block& first = plan_.motion.blocks[place_of_block_.at(range.first)];
+      const MotionPieces::Block& last = plan_.motion.blocks[place_of_block_.at(range.last)];
+      for (std::uint32_t b = range.first; b <= range.last; ++b) {
+        if (!plan_.motion.blocks[place_of_block_.at(b)].is_smooth) return {};
+      }
+      found.push_back({first.first, last.first + last.count - first.first});
     }
-    return true;
+    return found;
+  }
+  [[nodiscard]] std::span<const MotionPiece> of(const PieceRange& range) const {
+    return {plan_.motion.pieces.data() + range.first, range.count};
+  }
+
+  // The middle machine's contact on the motion itself: the face, and the deepest piece.
+  struct OwnContact {
+    LaneFace face{};
+    PieceSolution solution{};
+    std::size_t piece = 0;  // of the first range of the surroundings
+  };
+  [[nodiscard]] std::optional<OwnContact> own_contact(std::span<const MotionPiece> pieces,
+                                                      const Found& contact, const CentreLine& line,
+                                                      double travel) const {
+    std::optional<OwnContact> best;
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      if (pieces[k].block + 1 < contact.block || pieces[k].block > contact.block + 1) continue;
+      const PoseParabola piece = parabola(pieces[k]);
+      const ToolPose middle = piece.at(0.5);
+      const double height = (contact.touched - middle.tip).dot(middle.axis);
+      const auto face = face_at(body(contact.tool), height, contact.ball);
+      if (!face) continue;
+      const auto solution = solve_piece(*face, piece, line, travel);
+      if (solution && (!best || solution->travel < best->solution.travel)) {
+        best = {*face, *solution, k};
+      }
+    }
+    // As far apart as an edge and the planes beside it may be, for a ball.
+    constexpr double kSame = 5e-3;
+    if (!best) return std::nullopt;
+    const Vec3 centre = line.touching + best->solution.travel * line.normal;
+    const Vec3 touched = centre + line.ball * best->solution.centre.out;
+    if (!((touched - contact.touched).norm() < kSame)) return std::nullopt;
+    return best;
   }
 
   void follow(FollowedPoint& point, const Found& contact, std::size_t index) {
@@ -204,70 +272,54 @@ class Planner {
       point.why_not = "the cutter is not convex";
       return;
     }
-    if (!take_surroundings(point, ranges_[index])) {
-      point.piece_count = 0;
+    const std::vector<PieceRange> surroundings = pieces_of(ranges_[index]);
+    if (surroundings.empty()) {
       point.why_not = "an error bends sharply within a block";
       return;
     }
-    const std::span<const MotionPiece> pieces(plan_.motion.pieces.data() + point.first_piece,
-                                              point.piece_count);
-    // What is shown from here on is shown for the surroundings as a whole.
+    const std::span<const MotionPiece> pieces = of(surroundings.front());
     const CentreLine line{contact.point + contact.ball * contact.normal, contact.normal,
                           contact.ball};
-    const double travel = (contact.touched - contact.point).dot(contact.normal);
-    std::optional<LaneFace> face;
-    std::optional<PieceSolution> best;
-    std::size_t own = 0;
-    for (std::size_t k = 0; k < pieces.size(); ++k) {
-      if (pieces[k].block + 1 < contact.block || pieces[k].block > contact.block + 1) continue;
-      const PoseParabola piece = parabola(pieces[k]);
-      const ToolPose middle = piece.at(0.5);
-      const double height = (contact.touched - middle.tip).dot(middle.axis);
-      if (!face) face = face_at(body(contact.tool), height, contact.ball);
-      if (!face) continue;
-      const auto solution = solve_piece(*face, piece, line, travel);
-      if (solution && (!best || solution->travel < best->travel)) {
-        best = solution;
-        own = k;
-      }
-    }
-    if (!best) {
-      point.piece_count = 0;
+    const double from = (contact.touched - contact.point).dot(contact.normal);
+    const auto own = own_contact(pieces, contact, line, from);
+    if (!own) {
       point.why_not = "an end face or an edge of the cutter made the surface";
       return;
     }
-    ProbeWindow window;
-    const PoseParabola own_piece = parabola(pieces[own]);
-    const ToolPose pose = own_piece.at(best->tau);
-    const Vec3 centre = line.touching + best->travel * line.normal;
-    const Vec3 touched = centre + line.ball * best->centre.out;
-    if (!((touched - contact.touched).norm() < 5e-3)) {
-      point.piece_count = 0;
-      point.why_not = "the contact is not one with a smooth face of the cutter";
-      return;
-    }
-    const ContactPlace at{touched, best->centre.out, pose,
-                          bounds_.motions(state_on(pieces[own], best->tau), contact.tool, pose,
-                                          touched)};
-    window.others = bounds_.others(at, ranges_[index].first, ranges_[index].last, contact.tool,
-                                   {line.touching, line.normal, contact.ball, best->travel,
-                                    piece_.plan.probe.clearance});
-    if (!(window.others.per_scale < 1.0)) {
-      point.piece_count = 0;
+    const MotionPiece& own_piece = pieces[own->piece];
+    const double travel = own->solution.travel;
+    const ToolPose pose = parabola(own_piece).at(own->solution.tau);
+    const Vec3 touched =
+        line.touching + travel * line.normal + line.ball * own->solution.centre.out;
+    const ContactPlace at{
+        touched, own->solution.centre.out, pose,
+        bounds_.motions(state_on(own_piece, own->solution.tau), contact.tool, pose, touched)};
+    point.others = bounds_.others(
+        at, ranges_[index], contact.tool,
+        {line.touching, line.normal, contact.ball, travel, piece_.plan.probe.clearance});
+    if (!(point.others.per_scale < 1.0)) {
       point.why_not = "other cuts or the blank's surface are too near";
       return;
     }
-    point.others = window.others;
-    widen(window, pieces, own, at, *face, contact.tool);
+    point.surroundings = surroundings;
+    point.tool = contact.tool;
+    point.origin = {own_piece.node, own->solution.tau, pose, touched};
+    if (surroundings.size() > 1) {
+      point.why_not = "the path comes by more than once";
+      return;
+    }
+    ProbeWindow window;
+    window.others = point.others;
+    widen(window, pieces, own->piece, at, own->face, contact.tool);
     if (window.pieces == 0) {
       point.why_not = "the cutter hardly leaves the surface again";
       return;
     }
-    fill(window, pieces, line, best->travel, *face, contact);
+    fill(window, pieces, line, travel, own->face, contact);
     window.tip = {pose.tip.x(), pose.tip.y(), pose.tip.z()};
     window.axis = {pose.axis.x(), pose.axis.y(), pose.axis.z()};
     window.touched = {touched.x(), touched.y(), touched.z()};
-    window.travel = best->travel;
+    window.travel = travel;
     const auto planned = planned_point(index);
     window.point = {planned.point.x(), planned.point.y(), planned.point.z()};
     window.normal = {planned.normal.x(), planned.normal.y(), planned.normal.z()};
@@ -303,10 +355,10 @@ class Planner {
     const double drift = kDeviations * bounds_.drift_deviation(at);
     std::size_t first = own, last = own;
     const auto is_enough = [&](const SideBound& side) {
-      return side.at_end > 0.0 &&
-             side.closeness.per_scale + side.closeness.per_drift * drift +
-                     side.closeness.per_nearer * (side.lean * drift + 0.5 * drift * drift / side.rho) <
-                 kShare;
+      return side.at_end > 0.0 && side.closeness.per_scale + side.closeness.per_drift * drift +
+                                          side.closeness.per_nearer *
+                                              (side.lean * drift + 0.5 * drift * drift / side.rho) <
+                                      kShare;
     };
     const auto side_at = [&](std::uint32_t end, bool up) {
       std::vector<PlaceOnPath> beyond;
@@ -369,9 +421,9 @@ class Planner {
   ColumnMotion columns_;
   WindowBounds bounds_;
   FollowPlan plan_{};
-  std::vector<std::uint32_t> first_segment_{};  // of each block of the path, and the end
-  std::vector<std::optional<Found>> found_{};   // by point
-  std::vector<BlockRange> ranges_{};
+  std::vector<std::uint32_t> first_segment_{};     // of each block of the path, and the end
+  std::vector<std::optional<Found>> found_{};      // by point
+  std::vector<std::vector<BlockRange>> ranges_{};  // the first is that of the contact
   std::vector<std::uint32_t> blocks_{};
   std::map<std::uint32_t, std::size_t> place_of_block_{};  // in plan_.motion.blocks
   std::vector<ToolPose> poses_{};                          // of the middle machine

@@ -21,20 +21,29 @@
 
 #include "trials/lane_chain.hpp"
 #include "trials/lane_contact.hpp"
+#include "trials/local_contact.hpp"
 #include "trials/motion_pieces.hpp"
 #include "trials/population_laws.hpp"
 #include "trials/trial.hpp"
 
 namespace frustum::trials {
 
+// Pieces in a row.
+struct PieceRange {
+  std::uint32_t first = 0, count = 0;
+};
+
 // One planned point.
 struct FollowedPoint {
   bool is_followed = false;
   std::string why_not{};
   std::uint32_t window = 0;  // if it is followed
-  // Its surroundings, of the list of pieces; none: count is 0.
-  std::uint32_t first_piece = 0, piece_count = 0;
-  Closeness others{};        // of what is not in them
+  // Its surroundings, of the list of pieces: where the contact is, then where the path comes by
+  // once more; none where other parts of the path cannot be excluded.
+  std::vector<PieceRange> surroundings{};
+  Closeness others{};  // of what is not in them
+  int tool = 0;
+  ContactOrigin origin{};
 };
 
 struct FollowPlan {
@@ -42,8 +51,8 @@ struct FollowPlan {
   MotionPieces motion{};
   WindowTables tables{};
   std::vector<ProbeWindow> windows{};
-  std::vector<FollowedPoint> points{};      // features and points in the order of the plan
-  std::vector<std::uint32_t> first_point{};  // of each feature, and the end
+  std::vector<FollowedPoint> points{};        // features and points in the order of the plan
+  std::vector<std::uint32_t> first_point{};   // of each feature, and the end
   std::vector<std::uint32_t> window_nodes{};  // that any window needs
   double largest_motion = 0.0;  // mm, of any point of the cutters for errors within their laws
 };

@@ -94,9 +94,9 @@ void LaneChain::prepare(const Joint& joint, bool on_work) {
   lane.rotor = machine_.rotary_error_frame() == kinematics::RotaryErrorFrame::rotor;
   lane.on_work = on_work;
   lane.about = turns_about(joint);
-  lane.pivot = joint.functional_point.at_tip                    ? LaneJoint::Pivot::end
+  lane.pivot = joint.functional_point.at_tip              ? LaneJoint::Pivot::end
                : joint.functional_point.point.isZero(0.0) ? LaneJoint::Pivot::origin
-                                                                : LaneJoint::Pivot::point;
+                                                          : LaneJoint::Pivot::point;
   lane.point = numbers_of(joint.functional_point.point);
   lane.offset = numbers_of(joint.offset);
   for (std::size_t k = 0; k < 6; ++k) {

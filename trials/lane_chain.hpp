@@ -30,8 +30,8 @@ struct LaneJoint {
   bool rotary = false;
   bool rotor = false;  // component errors act before the joint turns
   bool on_work = false;
-  bool tilted = false;   // linear: the line leans
-  bool carries = false;  // location errors turn what the joint carries
+  bool tilted = false;     // linear: the line leans
+  bool carries = false;    // location errors turn what the joint carries
   std::uint8_t about = 0;  // rotary: 0 X, 1 Y, 2 Z, 3 any other direction
   Pivot pivot = Pivot::origin;
   bool shifts = false, turns = false;       // component errors
@@ -43,7 +43,7 @@ struct LaneJoint {
 
 // What of a machine does not depend on where its axes are.
 struct LaneJointErrors {
-  LaneVec3 place{};  // offset with the location errors
+  LaneVec3 place{};                        // offset with the location errors
   std::array<Lanes, 9> line{}, carried{};  // by rows
 };
 struct LaneMachines {
@@ -54,13 +54,13 @@ struct LaneMachines {
 struct LaneChainTables {
   std::vector<LaneJoint> joints{};  // tool chain from the tool to the bed, work chain from there on
   bool zyx = true;
-  std::array<double, 3> table{};                     // of the last joint of the work chain
-  std::array<double, 9> workpiece_from_table{};      // rotation by rows
-  std::array<double, 3> workpiece_origin{};          // of that pose
-  std::uint32_t start_at = 0;                        // tip in the frame of the tool chain's end
-  std::uint32_t base_at = 0, entries_at = 0;         // numbers of component errors
-  std::vector<std::uint32_t> first_entry{};          // of each component error, and the end
-  std::vector<std::uint32_t> column_of{};            // of each entry
+  std::array<double, 3> table{};                 // of the last joint of the work chain
+  std::array<double, 9> workpiece_from_table{};  // rotation by rows
+  std::array<double, 3> workpiece_origin{};      // of that pose
+  std::uint32_t start_at = 0;                    // tip in the frame of the tool chain's end
+  std::uint32_t base_at = 0, entries_at = 0;     // numbers of component errors
+  std::vector<std::uint32_t> first_entry{};      // of each component error, and the end
+  std::vector<std::uint32_t> column_of{};        // of each entry
   std::size_t stride = 0;
   std::vector<double> numbers{};  // stride a place
 };

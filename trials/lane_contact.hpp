@@ -41,8 +41,8 @@ struct LanePiece {
 // How far something is to be from the middle machine's contact, each divided by how far it is:
 // what a machine moves by in all must remain below one.
 struct Closeness {
-  double per_scale = 0.0;   // for the errors at the limits of their laws
-  double per_drift = 0.0;   // for a mm that the contact goes along the surface
+  double per_scale = 0.0;  // for the errors at the limits of their laws
+  double per_drift = 0.0;  // for a mm that the contact goes along the surface
   // For a mm that the end of the window has come nearer; of others, for a mm that the contact has
   // moved in the workpiece, where the blank's surface stays.
   double per_nearer = 0.0;
@@ -76,7 +76,7 @@ enum class Doubt : std::uint32_t {
   edges = 4,      // more than one edge, or one that is too blunt for its planes
   before = 8,     // what comes before or after the window
   after = 16,
-  others = 32,    // other parts of the path
+  others = 32,  // other parts of the path
 };
 
 struct LaneContact {

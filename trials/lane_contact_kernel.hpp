@@ -10,7 +10,7 @@ struct FaceDistance {
   Number value;   // less the ball's radius: of the surface of the ball
   Number slope;   // along the planned normal
   Number rate;    // with tau
-  Vector out;  // unit normal, out of the cutter
+  Vector out;     // unit normal, out of the cutter
   Number height;  // above the tip, of the point that touches
   Number rho;     // from the tool's axis
 };
@@ -34,8 +34,7 @@ struct PieceMotion {
         axis1(first(a.axis, b.axis, c.axis)),
         axis2(second(a.axis, b.axis, c.axis)) {}
 
-  static inline Vector at(const Vector& p0, const Vector& p1, const Vector& p2,
-                            const Number& tau) {
+  static inline Vector at(const Vector& p0, const Vector& p1, const Vector& p2, const Number& tau) {
     return sum(p0, times(tau, sum(p1, times(tau, p2))));
   }
   inline Vector tip(const Number& tau) const { return at(tip0, tip1, tip2, tau); }
@@ -150,8 +149,8 @@ class ContactSearch {
       doubt_if(keeps_away(window_.before, drifted, nearer), Doubt::before);
     }
     if (window_.is_open_after) {
-      const Number nearer = window_.at_last - end_distance(pieces_[window_.pieces - 1].node[2],
-                                                          drifted);
+      const Number nearer =
+          window_.at_last - end_distance(pieces_[window_.pieces - 1].node[2], drifted);
       doubt_if(keeps_away(window_.after, drifted, nearer), Doubt::after);
     }
     store(contact.travel, first_, travel_);
@@ -183,8 +182,8 @@ class ContactSearch {
   void find_deepest() {
     for (std::uint32_t k = 0; k < window_.pieces; ++k) {
       const PieceMotion motion = motion_of(pieces_[k]);
-      const PieceContact found = contact_on(face_, motion, pieces_[k], touching_, normal_, ball_,
-                                            window_.travel);
+      const PieceContact found =
+          contact_on(face_, motion, pieces_[k], touching_, normal_, ball_, window_.travel);
       if (k == window_.own_piece) keep_own_pose(motion, pieces_[k].tau);
       contacts_[k] = found;
       if (k == 0) {
@@ -244,8 +243,8 @@ class ContactSearch {
     const Vector touched = all(window_.touched.data());
     const Vector m = difference(touched, tip), turn = difference(own_axis_, axis);
     const Number z = dot(m, axis);
-    const Vector carried = sum(difference(own_tip_, tip),
-                                 difference(times(z, turn), times(dot(m, turn), axis)));
+    const Vector carried =
+        sum(difference(own_tip_, tip), difference(times(z, turn), times(dot(m, turn), axis)));
     const Vector off = difference(difference(touched_, touched), carried);
     return root(dot(off, off));
   }
@@ -259,8 +258,7 @@ class ContactSearch {
   // Of the contact from the plane that touches the cutter at an end of the window, at least.
   Number end_distance(std::uint32_t node, const Number& drift) const {
     const Place pose = place(node);
-    const FaceDistance d =
-        from_face(face_, difference(touched_, pose.tip), pose.axis, all(0.0));
+    const FaceDistance d = from_face(face_, difference(touched_, pose.tip), pose.axis, all(0.0));
     return d.value - 0.5 * drift * drift / d.rho;
   }
 

@@ -60,9 +60,7 @@ static inline Vector sum(const Vector& a, const Vector& b) {
 static inline Vector difference(const Vector& a, const Vector& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
-static inline Vector times(const Number& f, const Vector& a) {
-  return {f * a.x, f * a.y, f * a.z};
-}
+static inline Vector times(const Number& f, const Vector& a) { return {f * a.x, f * a.y, f * a.z}; }
 static inline Vector chosen(const Mask& mask, const Vector& yes, const Vector& no) {
   return {either(mask, yes.x, no.x), either(mask, yes.y, no.y), either(mask, yes.z, no.z)};
 }

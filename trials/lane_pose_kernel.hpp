@@ -27,14 +27,21 @@ static LaneTurn by_library(const Number& angle) {
   return turn;
 }
 
-static inline void turn_pair(Number& first, Number& second, const Number& sine, const Number& cosine) {
+static inline void turn_pair(Number& first, Number& second, const Number& sine,
+                             const Number& cosine) {
   const Number turned = cosine * first - sine * second;
   second = sine * first + cosine * second;
   first = turned;
 }
-static inline void turn_x(Vector& v, const Number& s, const Number& c) { turn_pair(v.y, v.z, s, c); }
-static inline void turn_y(Vector& v, const Number& s, const Number& c) { turn_pair(v.z, v.x, s, c); }
-static inline void turn_z(Vector& v, const Number& s, const Number& c) { turn_pair(v.x, v.y, s, c); }
+static inline void turn_x(Vector& v, const Number& s, const Number& c) {
+  turn_pair(v.y, v.z, s, c);
+}
+static inline void turn_y(Vector& v, const Number& s, const Number& c) {
+  turn_pair(v.z, v.x, s, c);
+}
+static inline void turn_z(Vector& v, const Number& s, const Number& c) {
+  turn_pair(v.x, v.y, s, c);
+}
 
 static inline Vector product(const Number* m, const Vector& v) {
   return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z,
@@ -72,7 +79,8 @@ class PoseWalk {
     }
     tip_ = difference(tip_, all(chain_.table.data()));
     Number m[9];
-    for (int k = 0; k < 9; ++k) m[k] = all(chain_.workpiece_from_table[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < 9; ++k)
+      m[k] = all(chain_.workpiece_from_table[static_cast<std::size_t>(k)]);
     return {sum(product(m, tip_), all(chain_.workpiece_origin.data())), product(m, axis_)};
   }
 
@@ -81,8 +89,8 @@ class PoseWalk {
     const auto c = static_cast<std::size_t>(index);
     Number value = all(numbers_[chain_.base_at + c]);
     for (std::uint32_t e = chain_.first_entry[c]; e < chain_.first_entry[c + 1]; ++e) {
-      value += numbers_[chain_.entries_at + e] *
-               load(machines_.weights[chain_.column_of[e]], first_);
+      value +=
+          numbers_[chain_.entries_at + e] * load(machines_.weights[chain_.column_of[e]], first_);
     }
     return value;
   }

@@ -96,7 +96,8 @@ class PieceCutter {
     if (chains_ && length == length_ && tool.flute_length == reach_) return;
     length_ = length;
     reach_ = tool.flute_length;
-    chains_.emplace(ForwardChain(machine_, middle_, length), ForwardChain(machine_, limits_, length));
+    chains_.emplace(ForwardChain(machine_, middle_, length),
+                    ForwardChain(machine_, limits_, length));
   }
 
   std::uint32_t add(const AxisState& state) {
@@ -182,8 +183,8 @@ MotionPieces motion_pieces(const kinematics::Machine& machine, const kinematics:
     if (std::holds_alternative<kinematics::CommandedToolChange>(step)) is_after_last = false;
     const auto* move = std::get_if<CommandedMove>(&step);
     if (move == nullptr) continue;
-    const ApproachProfile approach = tracker.follow(
-        [move](double u) { return move->motion.at(u); }, move->motion.least_parts());
+    const ApproachProfile approach =
+        tracker.follow([move](double u) { return move->motion.at(u); }, move->motion.least_parts());
     if (move->tool == 0) continue;
     const bool is_wanted = wanted != blocks.end() && *wanted == block;
     if (is_wanted) {

@@ -229,11 +229,10 @@ void WindowBounds::take_segment(Closeness& closeness, const ContactPlace& at,
   for (const bool begin : {true, false}) {
     const std::uint32_t pose = segment.first_pose + (begin ? 0 : 1);
     const BodyDistance& d = begin ? a : b;
-    const auto by = nearer(at, d.out, path.poses[pose],
-                           motions_at(of_poses_, pose, path.axes[pose], tool));
-    take(closeness,
-         {std::min(sum_at_limits(by), 2.0 * largest_) / least,
-          across(d.out, at.normal).norm() / least, 0.0});
+    const auto by =
+        nearer(at, d.out, path.poses[pose], motions_at(of_poses_, pose, path.axes[pose], tool));
+    take(closeness, {std::min(sum_at_limits(by), 2.0 * largest_) / least,
+                     across(d.out, at.normal).norm() / least, 0.0});
   }
 }
 
@@ -255,8 +254,12 @@ bool WindowBounds::is_inside_blank(const Vec3& point, double margin) const {
   return true;
 }
 
-Closeness WindowBounds::others(const ContactPlace& at, std::uint32_t first, std::uint32_t last,
-                               int tool, const ApproachLine& line) {
+bool is_in(std::span<const BlockRange> ranges, std::uint32_t block) {
+  return std::ranges::any_of(ranges, [block](const BlockRange& r) { return r.has(block); });
+}
+
+Closeness WindowBounds::others(const ContactPlace& at, std::span<const BlockRange> but, int tool,
+                               const ApproachLine& line) {
   const ToolPath& path = workpiece_.removed().path();
   const double far = 2.0 * kMostScale * 2.0 * largest_;
   Closeness closeness{2.0 * largest_ / far, 1.0 / far, 0.0};
@@ -264,8 +267,7 @@ Closeness WindowBounds::others(const ContactPlace& at, std::uint32_t first, std:
   // from this cutter moves along the surface only, but for the turn of the line of approach (mm).
   constexpr double kTurned = 0.01;
   const Vec3 start = at.point + (line.clearance - line.travel) * line.normal;
-  const double cleared =
-      -workpiece_.removed().tool(tool).body().distance(at.pose, start);
+  const double cleared = -workpiece_.removed().tool(tool).body().distance(at.pose, start);
   constexpr double kLeastInside = 1e-3;  // mm: hardly cut at all
   double inside = far;
   while (inside > kLeastInside && !is_inside_blank(at.point, inside)) inside *= 0.8;
@@ -276,8 +278,7 @@ Closeness WindowBounds::others(const ContactPlace& at, std::uint32_t first, std:
   const Box near{at.point - room, at.point + room};
   for (std::uint32_t s = 0; s < path.segments.size(); ++s) {
     const kinematics::PathSegment& segment = path.segments[s];
-    if (segment.block >= first && segment.block <= last) continue;
-    if (!overlap(workpiece_.removed().box(s), near)) continue;
+    if (!overlap(workpiece_.removed().box(s), near) || is_in(but, segment.block)) continue;
     take_segment(closeness, at, segment, path.blocks[segment.block].tool);
     if (!std::isfinite(closeness.per_scale)) break;
   }

@@ -41,6 +41,13 @@ struct ApproachLine {
   double ball = 0.0, travel = 0.0, clearance = 0.0;
 };
 
+// Of the blocks of a tool path, both included.
+struct BlockRange {
+  std::uint32_t first = 0, last = 0;
+  [[nodiscard]] bool has(std::uint32_t block) const { return first <= block && block <= last; }
+};
+[[nodiscard]] bool is_in(std::span<const BlockRange> ranges, std::uint32_t block);
+
 // What lies beyond one end of a window.
 struct SideBound {
   Closeness closeness{};
@@ -63,9 +70,9 @@ class WindowBounds {
   // Of the places beyond an end of the window, along the path.
   [[nodiscard]] SideBound side(const ContactPlace& at, const LaneFace& face, int tool,
                                const PlaceOnPath& end, std::span<const PlaceOnPath> beyond);
-  // Of all blocks but [first, last], of the blank, and of the way that the ball comes.
-  [[nodiscard]] Closeness others(const ContactPlace& at, std::uint32_t first, std::uint32_t last,
-                                 int tool, const ApproachLine& line);
+  // Of all blocks but those of the ranges, of the blank, and of the way that the ball comes.
+  [[nodiscard]] Closeness others(const ContactPlace& at, std::span<const BlockRange> but, int tool,
+                                 const ApproachLine& line);
 
  private:
   // Motions of all columns, six numbers each.
