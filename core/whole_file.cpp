@@ -63,16 +63,28 @@ Result<fs::path> write_through(const fs::path& path, std::string_view bytes) {
   return cannot_write(path, std::strerror(errno));
 }
 
+Diagnostic endless(const fs::path& path) {
+  Diagnostic diagnostic =
+      error("file-unreadable"_id, "more than 256 MiB come through this pipe or device",
+            "write them to a file before, and name that");
+  diagnostic.file = path.string();
+  return diagnostic;
+}
+
 }  // namespace
 
 Result<std::string> read_whole_file(const fs::path& path) {
+  constexpr std::size_t kLongestStream = std::size_t{1} << 28U;
   std::error_code unknown;
+  const std::size_t longest =
+      fs::is_regular_file(path, unknown) ? std::string().max_size() : kLongestStream;
   std::string bytes;
   bool read = false;
   if (!fs::is_directory(path, unknown)) {
     if (const File file{std::fopen(path.c_str(), "rb")}) {
       std::array<char, 1 << 16> some{};
       while (const std::size_t count = std::fread(some.data(), 1, some.size(), file.get())) {
+        if (bytes.size() + count > longest) return endless(path);
         bytes.append(some.data(), count);
       }
       read = std::ferror(file.get()) == 0;

@@ -16,7 +16,8 @@
 
 namespace frustum {
 
-// All bytes of a file; a folder is none.
+// All bytes of a file; a folder is none. What is no regular file (a pipe, a device) is read to its
+// end, which is an error when it does not come within 256 MiB.
 [[nodiscard]] Result<std::string> read_whole_file(const std::filesystem::path& path);
 
 // The folder must exist. Returns the path.

@@ -2,6 +2,7 @@
 // equivalent form of a cone.
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -50,6 +51,37 @@ std::optional<Diagnostic> without_redundancy(std::size_t parameters, std::size_t
       fmt::format("measure {} or more", parameters + 1));
 }
 
+// A circle has no axis but that of its own points. Heights over its plane tilt that, and make a form
+// of a round part; no matter where they are much less than the form.
+std::optional<Diagnostic> uneven(const std::vector<Vec3>& points, double form_mm) {
+  constexpr double kShare = 0.2;  // of the form: what is made of heights is estimated from above
+  Vec3 centroid = Vec3::Zero();
+  for (const Vec3& p : points) centroid += p / static_cast<double>(points.size());
+  Mat3 spread = Mat3::Zero();
+  for (const Vec3& p : points) spread += (p - centroid) * (p - centroid).transpose();
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(spread / static_cast<double>(points.size()));
+  const Vec3 normal = eigen.eigenvectors().col(0);
+  double low = 0.0;
+  double high = 0.0;
+  double squares = 0.0;
+  for (const Vec3& p : points) {
+    const double height = (p - centroid).dot(normal);
+    low = std::min(low, height);
+    high = std::max(high, height);
+    squares += height * height / static_cast<double>(points.size());
+  }
+  const double width = std::sqrt(std::max(0.0, eigen.eigenvalues()[1]));
+  const double tilt = std::sqrt(squares) / width;
+  const double made = (high - low) * tilt + 0.5 * width * tilt * tilt;
+  if (!(made > kShare * form_mm)) return std::nullopt;
+  return error(
+      "section-height"_id,
+      fmt::format("its points are {:.3g} mm apart along its axis, which makes up to {:.2g} "
+                  "um of a form of {:.2g} um",
+                  high - low, 1e3 * made, 1e3 * form_mm),
+      "measure at one height, or plan a cylinder, whose axis does not come of one section");
+}
+
 // Peak to valley of deviations, each of a point of its own.
 NonNegative of_points(const std::vector<double>& deviations, std::vector<Vec3> places) {
   NonNegative form{{NonNegativeKind::peak_to_valley}, deviations, std::move(places)};
@@ -87,6 +119,11 @@ Result<Evaluated> roundness_of(const Toleranced& what, std::size_t section) {
   if (!profile) return about_section(feature, section, std::move(profile).error());
   if (auto few = without_redundancy(3, points->size(), "circle")) {
     return about_section(feature, section, {*std::move(few)});
+  }
+  if (std::holds_alternative<Circle>(feature.element)) {
+    if (auto fault = uneven(*points, profile->peak_to_valley)) {
+      return about_section(feature, section, {*std::move(fault)});
+    }
   }
   auto deviations = round_deviations(*profile, *points, what.planned);
   if (!deviations) return std::move(deviations).error();

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <span>
 
 #include "metrology/characteristic/evaluators.hpp"
 #include "metrology/characteristic/feature_extent.hpp"
@@ -70,31 +72,74 @@ PlanarProfile profile_of_line(const FittedFeature& feature) {
   return profile;
 }
 
-// Points at one angle about the axis, within half a degree, that are three or more.
-std::vector<PlanarProfile> generatrices(const FittedFeature& feature) {
+struct PlacedPoint {
+  double angle = 0.0;
+  PlanarPoint point{};
+};
+
+double reach_of(const PlanarProfile& profile) {
+  const auto [low, high] = std::ranges::minmax_element(profile, {}, &PlanarPoint::along);
+  return high->along - low->along;
+}
+bool goes_along(const PlanarProfile& profile, double least) {
+  return profile.size() >= 3 && reach_of(profile) >= least;
+}
+
+// Groups of neighbours that are no more than `apart` from each other. One that is wider than half a
+// degree is parted at smaller gaps, as one is where each part goes along `least` by itself: in dense
+// sections all points are neighbours.
+std::vector<PlanarProfile> parted_by_angle(std::span<const PlacedPoint> placed, double apart,
+                                           double least) {
   constexpr double kOneAngle = 0.5 * kRadPerDeg;
+  constexpr double kLeastGap = 1e-6;  // rad: nearer points of a scan are at one angle
+  std::vector<PlanarProfile> all;
+  for (std::size_t i = 0, end = 0; i < placed.size(); i = end) {
+    end = i + 1;
+    while (end < placed.size() && placed[end].angle - placed[end - 1].angle <= apart) ++end;
+    const auto group = placed.subspan(i, end - i);
+    const bool is_wide = group.back().angle - group.front().angle > kOneAngle;
+    std::vector<PlanarProfile> parts;
+    if (apart > kLeastGap) parts = parted_by_angle(group, 0.5 * apart, least);
+    const bool all_go = std::ranges::all_of(
+        parts, [&](const PlanarProfile& part) { return goes_along(part, least); });
+    if (parts.size() > 1 && (is_wide || all_go)) {
+      std::ranges::move(parts, std::back_inserter(all));
+      continue;
+    }
+    all.emplace_back();
+    for (const PlacedPoint& p : group) all.back().push_back(p.point);
+  }
+  return all;
+}
+
+// Points at one angle about the axis, within half a degree, that are three or more and go along
+// half of the feature or farther.
+std::vector<PlanarProfile> generatrices(const FittedFeature& feature) {
   const Vec3 axis = *axis_of(feature.element);
   const AngleFrame frame = angle_frame(feature);
   const double sign = material_sign(*feature.planned);
-  std::vector<std::pair<double, PlanarPoint>> placed;
+  std::vector<PlacedPoint> placed;
+  PlanarProfile whole;
   for (const MeasuredPoint& p : feature.points) {
     const Vec3 w = p.point - point_of(feature.element);
-    placed.emplace_back(angle_of(w, frame), PlanarPoint{w.dot(axis), sign * w.cross(axis).norm()});
+    whole.push_back({w.dot(axis), sign * w.cross(axis).norm()});
+    placed.push_back({angle_of(w, frame), whole.back()});
   }
-  std::sort(placed.begin(), placed.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<PlanarProfile> all;
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    if (i == 0 || placed[i].first - placed[i - 1].first > kOneAngle) all.emplace_back();
-    all.back().push_back(placed[i].second);
+  if (placed.empty()) return {};
+  std::ranges::stable_sort(placed, {}, &PlacedPoint::angle);
+  // Angles begin after the widest gap, so that no generatrix is cut where they start.
+  std::size_t first = 0;
+  double widest = placed.front().angle + 2.0 * std::numbers::pi - placed.back().angle;
+  for (std::size_t i = 1; i < placed.size(); ++i) {
+    if (placed[i].angle - placed[i - 1].angle <= widest) continue;
+    widest = placed[i].angle - placed[i - 1].angle;
+    first = i;
   }
-  // The first and the last may be one, cut where the angles start.
-  if (all.size() > 1 &&
-      placed.front().first + 2.0 * std::numbers::pi - placed.back().first <= kOneAngle) {
-    all.front().insert(all.front().end(), all.back().begin(), all.back().end());
-    all.pop_back();
-  }
-  std::erase_if(all, [](const PlanarProfile& p) { return p.size() < 3; });
+  for (std::size_t i = 0; i < first; ++i) placed[i].angle += 2.0 * std::numbers::pi;
+  std::ranges::rotate(placed, placed.begin() + static_cast<std::ptrdiff_t>(first));
+  const double least = 0.5 * reach_of(whole);
+  std::vector<PlanarProfile> all = parted_by_angle(placed, 0.5 * kRadPerDeg, least);
+  std::erase_if(all, [&](const PlanarProfile& p) { return !goes_along(p, least); });
   return all;
 }
 

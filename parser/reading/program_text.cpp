@@ -22,16 +22,17 @@ Diagnostic unreadable(const std::filesystem::path& file, std::string hint) {
 }
 
 // A pipe, which can be read only once, is kept in memory.
-constexpr std::size_t kLongestPipe = std::size_t{1} << 31U;
+constexpr std::size_t kLongestPipe = std::size_t{1} << 29U;
 
 Result<std::string> text_of_stream(std::FILE* stream, const std::filesystem::path& file) {
   std::string text;
   std::array<char, 1U << 16U> some{};
   while (const std::size_t count = std::fread(some.data(), 1, some.size(), stream)) {
-    text.append(some.data(), count);
-    if (text.size() > kLongestPipe) {
-      return unreadable(file, "more than 2 GiB come through this pipe; write it to a file before");
+    if (text.size() + count > kLongestPipe) {
+      return unreadable(file,
+                        "more than 512 MiB come through this pipe; write it to a file before");
     }
+    text.append(some.data(), count);
   }
   if (std::ferror(stream) != 0) return unreadable(file, std::strerror(errno));
   return text;

@@ -30,6 +30,16 @@ Result<SolidBody> solid_form(const kinematics::CylinderBody& cylinder) {
   const double radius = 0.5 * cylinder.diameter;
   return SolidBody::of(FrustumShape{radius, radius, cylinder.height});
 }
+// What is within a mesh is only known of one that bounds a body.
+std::optional<Diagnostic> unbounded(const MeshMeasure& mesh) {
+  if (!mesh.is_closed) {
+    return error("body-open"_id, "the mesh of this body is open: it has no inside",
+                 "close its gaps, or make the body of boxes and cylinders");
+  }
+  if (mesh.volume > 0.0) return std::nullopt;
+  return error("body-inside-out"_id, "the triangles of this body face inwards",
+               "turn them: seen from outside their corners run counterclockwise");
+}
 Result<SolidBody> solid_form(const kinematics::MeshBody& body) {
   auto mesh = read_mesh(body.file);
   if (!mesh) {
@@ -39,10 +49,12 @@ Result<SolidBody> solid_form(const kinematics::MeshBody& body) {
     }
     return problems;
   }
-  const bool is_closed = measure(*mesh).is_closed;
+  if (auto fault = unbounded(measure(*mesh))) {
+    fault->file = body.file.string();
+    return *std::move(fault);
+  }
   return SolidBody::of(
-      std::make_shared<const FacetSolid>(std::move(mesh->vertices), std::move(mesh->triangles)),
-      is_closed);
+      std::make_shared<const FacetSolid>(std::move(mesh->vertices), std::move(mesh->triangles)));
 }
 
 void add_tool(MachineScene& scene, const kinematics::Setup& setup, int number,

@@ -98,13 +98,13 @@ SolidBody SolidBody::of(const cutter::Body& body) {
   return SolidBody(std::move(parts));
 }
 
-SolidBody SolidBody::of(std::shared_ptr<const FacetSolid> mesh, bool is_closed) {
+SolidBody SolidBody::of(std::shared_ptr<const FacetSolid> mesh) {
   std::vector<ConvexShape> parts = parts_of(*mesh);
-  return SolidBody(std::move(parts), is_closed ? std::move(mesh) : nullptr);
+  return SolidBody(std::move(parts), std::move(mesh));
 }
 
 SolidBody SolidBody::of(const BlankShape& shape) {
-  if (const auto* mesh = std::get_if<MeshShape>(&shape)) return of(mesh->solid, true);
+  if (const auto* mesh = std::get_if<MeshShape>(&shape)) return of(mesh->solid);
   return SolidBody(std::visit(
       [](const auto& form) {
         if constexpr (std::is_same_v<std::decay_t<decltype(form)>, MeshShape>) {

@@ -32,7 +32,8 @@ class SolidBody {
   explicit SolidBody(std::vector<ConvexShape> parts,
                      std::shared_ptr<const FacetSolid> closed = nullptr);
   [[nodiscard]] static SolidBody of(const cutter::Body& body);
-  [[nodiscard]] static SolidBody of(std::shared_ptr<const FacetSolid> mesh, bool is_closed);
+  // Precondition: closed, facing outwards.
+  [[nodiscard]] static SolidBody of(std::shared_ptr<const FacetSolid> mesh);
   [[nodiscard]] static SolidBody of(const BlankShape& shape);
 
   [[nodiscard]] bool is_convex() const { return parts_.size() == 1; }

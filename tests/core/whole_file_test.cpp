@@ -57,6 +57,13 @@ TEST_F(WholeFile, ReadsAllBytes) {
   }
 }
 
+TEST_F(WholeFile, Attack3_2_ReadsNoDeviceWithoutEnd) {
+  const auto read = read_whole_file("/dev/zero");
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().front().id.text(), "file-unreadable");
+  EXPECT_EQ(read.error().front().file, "/dev/zero");
+}
+
 TEST_F(WholeFile, SaysWhatCannotBeRead) {
   for (const fs::path& file : {folder_, folder_ / "absent"}) {
     const auto read = read_whole_file(file);

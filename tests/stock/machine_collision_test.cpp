@@ -239,6 +239,25 @@ TEST(MachineCollision, MeshesAreMetAsBoxesOfTheirSize_Fault2_25) {
   std::filesystem::remove(file);
 }
 
+TEST(MachineCollision, Attack3_4_MeshesThatBoundNoBodyAreRefused) {
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("frustum-open-body-" + std::to_string(::getpid()) + ".obj");
+  const std::string corners = "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\n";
+  const auto read_from = [&](const std::string& facets) {
+    std::ofstream(file) << corners << facets;
+    return solid_of(kinematics::MeshBody{file});
+  };
+  EXPECT_TRUE(read_from("f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"));
+  const auto open = read_from("f 1 3 2\nf 1 2 4\nf 2 3 4\n");
+  ASSERT_FALSE(open);
+  EXPECT_EQ(open.error().front().id.text(), "body-open");
+  EXPECT_EQ(open.error().front().file, file.string());
+  const auto turned = read_from("f 1 2 3\nf 1 4 2\nf 2 4 3\nf 1 3 4\n");
+  ASSERT_FALSE(turned);
+  EXPECT_EQ(turned.error().front().id.text(), "body-inside-out");
+  std::filesystem::remove(file);
+}
+
 TEST(MachineCollision, IsTheSameForAnyNumberOfThreads_Fault2_25) {
   const Machine machine = shipped("zx-yac");
   std::vector<kinematics::AxisPositions> places;

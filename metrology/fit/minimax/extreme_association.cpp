@@ -277,6 +277,34 @@ Association finished(const Task& task, const ExtremeFound& found) {
   return result;
 }
 
+double radius_of(const Element& element) {
+  return std::visit(
+      [](const auto& e) {
+        if constexpr (requires { e.radius; }) {
+          return e.radius;
+        } else {
+          return 0.0;
+        }
+      },
+      element);
+}
+
+// The smallest circle around an arc of less than half a turn is that over its chord, on which the
+// points are not. Of points that surround the least-squares centre none is smaller than the nearest
+// of them is far.
+std::optional<Diagnostic> over_a_chord(const Task& task, const Association& found,
+                                       const Fit<Element>& squares) {
+  if (task.what != Sought::circumscribed) return std::nullopt;
+  constexpr double kProof = 1e-9;  // mm, as good as the association is
+  const double least = radius_of(squares.element) - squares.form - kProof;
+  if (radius_of(found.fit.element) >= least) return std::nullopt;
+  return error("association-open"_id,
+               fmt::format("the smallest {} around these points is that over their chord: they go "
+                           "around less than half of it",
+                           task.kind.name),
+               "probe around more than half of the circumference, or use 'ls' or 'mz'");
+}
+
 Diagnostic unproven(const Task& task) {
   if (task.what == Sought::inscribed) {
     return error("association-open"_id,
@@ -325,7 +353,9 @@ Result<Association> extreme_association(std::string_view name, std::span<const V
       found = std::move(best);
   }
   if (!found.solution.proven || 2.0 * found.solution.gap > tolerance(*local)) return unproven(task);
-  return finished(task, found);
+  Association result = finished(task, found);
+  if (auto open = over_a_chord(task, result, *start)) return *std::move(open);
+  return result;
 }
 
 }  // namespace frustum::metrology

@@ -7,6 +7,8 @@
 //              inscribed: the largest whose contacts surround its centre or axis, near the
 //                least-squares one (an axis within half a radian); points that leave it open on one
 //                side have none
+//              circumscribed: points that go around less than half of it have none: the smallest is
+//                that over their chord
 //              outside material of plane and line: the middle of the zone moved to its outer bound,
 //                axis of the plane along `outward`
 //              line in a plane: residuals have a sign, positive on its left seen from the tip of
