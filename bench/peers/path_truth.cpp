@@ -15,7 +15,6 @@ double corner_distance(double across, double along) {
          std::hypot(std::max(across, 0.0), std::max(along, 0.0));
 }
 
-// Infinitely far into the blank is -infinity: the largest of the six.
 double to_box(const Box& box, const Vec3& p) {
   const Vec3 beyond = (box.min - p).cwiseMax(p - box.max);
   const double outside = beyond.cwiseMax(0.0).norm();
@@ -40,7 +39,8 @@ PathTruth::PathTruth(const PeerScene& scene)
     const kinematics::ToolPose middle = some.poses[some.poses.size() / 2];
     double motion = 0.0;
     for (const kinematics::ToolPose& pose : some.poses) {
-      const double turn = std::atan2(pose.axis.cross(middle.axis).norm(), pose.axis.dot(middle.axis));
+      const double turn =
+          std::atan2(pose.axis.cross(middle.axis).norm(), pose.axis.dot(middle.axis));
       motion = std::max(motion, (pose.tip - middle.tip).norm() + reach * turn);
     }
     parts_.push_back({proof::StandingCutters(scene.meridian, true, some), middle, motion});
@@ -64,8 +64,8 @@ double PathTruth::to_void(const Vec3& point) const {
   double best = kFarthest;
   for (const auto& [least, part] : near) {
     if (least > best || best <= -kFarthest) break;
-    best = std::min(best, static_cast<double>(part->cutters.depth(point.cast<proof::Real>(), best,
-                                                                  -kFarthest)));
+    best = std::min(best, static_cast<double>(
+                              part->cutters.depth(point.cast<proof::Real>(), best, -kFarthest)));
   }
   return std::max(best, -kFarthest);
 }
@@ -73,7 +73,8 @@ double PathTruth::to_void(const Vec3& point) const {
 PathTruth::Offset PathTruth::of(const Vec3& point) const {
   const double blank = to_box(blank_, point);
   const double cut = -to_void(point);
-  return {std::max(blank, cut), cut > blank};
+  return {std::max(blank, cut), cut > blank,
+          std::abs(blank) < kFarthest && std::abs(cut) < kFarthest};
 }
 
 }  // namespace frustum::bench

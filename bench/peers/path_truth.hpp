@@ -19,13 +19,14 @@ namespace frustum::bench {
 class PathTruth {
  public:
   // Farther points are said to be as far as this.
-  static constexpr double kFarthest = 0.5;
+  static constexpr double kFarthest = 1.0;
 
   explicit PathTruth(const PeerScene& scene);
 
   struct Offset {
-    double distance = 0.0;     // outside the material positive
-    bool is_machined = false;  // the cutter's surface is nearer than the blank's
+    double distance = 0.0;      // outside the material positive
+    bool is_machined = false;   // the cutter's surface is nearer than the blank's
+    bool is_near_edge = false;  // within kFarthest of both: where they meet is not far
   };
   [[nodiscard]] Offset of(const Vec3& point) const;
 

@@ -32,11 +32,16 @@ std::optional<stock::SurfaceMesh> dexel_mesh(const PeerScene& scene, double pitc
 
 const char* name_of(Program program) {
   switch (program) {
-    case Program::ready: return "Frustum, workpiece";
-    case Program::ours: return "Frustum, mesh";
-    case Program::dexel: return "plain tri-dexel";
-    case Program::manifold: return "Manifold";
-    case Program::cgal: return "CGAL";
+    case Program::ready:
+      return "Frustum, workpiece";
+    case Program::ours:
+      return "Frustum, mesh";
+    case Program::dexel:
+      return "plain tri-dexel";
+    case Program::manifold:
+      return "Manifold";
+    case Program::cgal:
+      return "CGAL";
   }
   return "";
 }
@@ -49,6 +54,7 @@ std::string setting_of(const PeerCase& each) {
     if (each.chord > 0.0) text += fmt::format(", chord {} um", each.chord * 1e3);
   } else {
     text = fmt::format("{} facets", each.facets);
+    if (each.by_halves) text += ", by halves";
     if (each.facing == Facing::contact) text += ", one vertex at the contact";
   }
   if (each.pushed != 0.0) text += fmt::format(", pushed {} um", each.pushed * 1e3);
@@ -68,12 +74,17 @@ bool is_built_in(Program program) {
 std::optional<stock::SurfaceMesh> make_mesh(const PeerScene& scene, const PeerCase& each) {
   std::optional<stock::SurfaceMesh> mesh;
   switch (each.program) {
-    case Program::ready: break;
-    case Program::ours: mesh = our_mesh(scene, each); break;
-    case Program::dexel: mesh = dexel_mesh(scene, each.pitch); break;
+    case Program::ready:
+      break;
+    case Program::ours:
+      mesh = our_mesh(scene, each);
+      break;
+    case Program::dexel:
+      mesh = dexel_mesh(scene, each.pitch);
+      break;
     case Program::manifold:
 #ifdef FRUSTUM_PEERS_MANIFOLD
-      mesh = manifold_mesh(scene, each.facets, each.facing);
+      mesh = manifold_mesh(scene, each);
 #endif
       break;
     case Program::cgal:

@@ -16,11 +16,12 @@ enum class Program { ready, ours, dexel, manifold, cgal };
 // One row of the table.
 struct PeerCase {
   Program program = Program::ours;
-  double pitch = 0.0;   // mm, of ours and of dexels
-  double chord = 0.0;   // mm; 0: not refined
-  int facets = 0;       // of Boolean programs
+  double pitch = 0.0;  // mm, of ours and of dexels
+  double chord = 0.0;  // mm; 0: not refined
+  int facets = 0;      // of Boolean programs
   Facing facing = Facing::fixed;
-  double pushed = 0.0;  // mm, outwards at every vertex: what the measure must see
+  bool by_halves = false;  // Manifold: unions in the order of the program, not one batch
+  double pushed = 0.0;     // mm, outwards at every vertex: what the measure must see
 };
 
 [[nodiscard]] const char* name_of(Program program);
@@ -34,8 +35,8 @@ struct PeerCase {
 // (surface nets; Gibson 1998, MICCAI). No normals, no sharp edges.
 [[nodiscard]] stock::SurfaceMesh plain_dexel_mesh(const stock::TriDexel& dexels);
 // Blank minus the union of the hulls.
-[[nodiscard]] std::optional<stock::SurfaceMesh> manifold_mesh(const PeerScene& scene, int facets,
-                                                              Facing facing);
+[[nodiscard]] std::optional<stock::SurfaceMesh> manifold_mesh(const PeerScene& scene,
+                                                              const PeerCase& each);
 [[nodiscard]] std::optional<stock::SurfaceMesh> cgal_mesh(const PeerScene& scene, int facets,
                                                           Facing facing);
 

@@ -12,7 +12,7 @@
 namespace frustum::bench {
 
 struct RunLimits {
-  unsigned seconds = 120;  // of the wall clock, for a mesh
+  double cpu_seconds = 600.0;  // of all threads, for a mesh
   double gibibytes = 12.0;
 };
 
@@ -22,7 +22,7 @@ struct PeerRow {
   PeerCase what{};
   Outcome outcome = Outcome::gave_up;
   double seconds = 0.0;      // by the clock
-  double cpu_seconds = 0.0;  // of all threads
+  double cpu_seconds = 0.0;  // of all threads; too_slow: when it was stopped
   double mebibytes = 0.0;
   long triangles = 0;
   double probes_per_second = 0.0;  // Program::ready: one core

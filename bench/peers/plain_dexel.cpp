@@ -16,8 +16,7 @@ constexpr std::uint32_t kNone = 0xffffffffU;
 
 class SurfaceNets {
  public:
-  explicit SurfaceNets(const TriDexel& dexels)
-      : dexels_(dexels), nodes_(dexels.grid().nodes) {
+  explicit SurfaceNets(const TriDexel& dexels) : dexels_(dexels), nodes_(dexels.grid().nodes) {
     for (auto& layer : inside_) layer.resize(cells_in_layer());
     for (auto& layer : vertices_) layer.resize(cells_in_layer(), kNone);
   }

@@ -23,7 +23,6 @@ constexpr double kBelowFace = 1e-7;  // mm
 // Points of inner edges that are off the truth by more are left out: the path turns a corner there.
 constexpr double kOnEdge = 1e-4;  // mm
 
-// The mean errors of runs that did not cut the surface there say nothing about it.
 template <typename Function>
 void for_each_index(std::size_t count, const Function& function) {
   tbb::parallel_for(std::size_t{0}, count, function);
@@ -42,12 +41,10 @@ double ErrorSum::rms() const {
 }
 double ErrorSum::mean() const { return points > 0 ? sum / static_cast<double>(points) : 0.0; }
 
-double SurfaceError::worst() const {
-  return std::max({crossings.worst, vertices.worst, truth.worst, edges.worst});
-}
-double SurfaceError::rms() const {
-  return std::sqrt((crossings.squares + truth.squares) /
-                   static_cast<double>(std::max(1L, crossings.points + truth.points)));
+double SurfaceError::worst_on_faces() const { return std::max(from_mesh.worst, from_truth.worst); }
+double SurfaceError::rms_on_faces() const {
+  return std::sqrt((from_mesh.squares + from_truth.squares) /
+                   static_cast<double>(std::max(1L, from_mesh.points + from_truth.points)));
 }
 
 ErrorMeasure::ErrorMeasure(const PeerScene& scene, const ErrorOptions& options)
@@ -75,21 +72,23 @@ Ray ErrorMeasure::line(std::uint64_t k) const {
 void ErrorMeasure::find_ends(const stock::Workpiece& part) {
   const RaySpan span{0.0, (box_.max - box_.min).norm()};
   ends_.resize(static_cast<std::size_t>(options_.lines));
-  std::vector<std::vector<double>> off(ends_.size());
   for_each_index(ends_.size(), [&](std::size_t k) {
     const Ray ray = line(k);
-    for (const Interval& piece : part.material_along(ray, span).intervals()) {
+    const IntervalSet material = part.material_along(ray, span);
+    for (const Interval& piece : material.intervals()) {
       for (const auto& [s, tag] : {std::pair{piece.lo, piece.lo_tag}, {piece.hi, piece.hi_tag}}) {
         const stock::SurfacePoint met = part.surface_at(ray, s, tag);
-        const bool is_machined = met.segment.has_value();
-        ends_[k].push_back(
-            {s, ray.at(s), std::abs(met.normal.dot(ray.direction)), is_machined});
-        if (is_machined) off[k].push_back(truth_.of(ray.at(s)).distance);
+        TrueEnd& end = ends_[k].emplace_back(
+            TrueEnd{s, ray.at(s), std::abs(met.normal.dot(ray.direction)), {}});
+        if (met.segment) end.off = truth_.of(end.point);
+        end.off.is_machined = met.segment.has_value();
       }
     }
   });
-  for (const auto& of_line : off) {
-    for (const double distance : of_line) exact_ends_.add(distance);
+  for (const auto& of_line : ends_) {
+    for (const TrueEnd& end : of_line) {
+      if (end.off.is_machined) exact_ends_.add(end.off.distance);
+    }
   }
 }
 
@@ -112,7 +111,8 @@ void ErrorMeasure::find_edges(const PeerScene& scene, const stock::Workpiece& pa
     d[u] = std::cos(angle);
     d[v] = std::sin(angle);
     const Ray ray{a - size.norm() * d, d};
-    for (const Interval& piece : part.material_along(ray, {0.0, 2.0 * size.norm()}).intervals()) {
+    const IntervalSet material = part.material_along(ray, {0.0, 2.0 * size.norm()});
+    for (const Interval& piece : material.intervals()) {
       for (const auto& [s, tag] : {std::pair{piece.lo, piece.lo_tag}, {piece.hi, piece.hi_tag}}) {
         if (part.surface_at(ray, s, tag).segment) edges_.push_back(ray.at(s));
       }
@@ -122,7 +122,8 @@ void ErrorMeasure::find_edges(const PeerScene& scene, const stock::Workpiece& pa
       std::max<std::size_t>(1, scene.inner_edges.size() / static_cast<std::size_t>(options_.edges));
   for (std::size_t k = 0; k < scene.inner_edges.size(); k += step) {
     const Vec3& p = scene.inner_edges[k];
-    const bool within = (p.array() > box_.min.array()).all() && (p.array() < box_.max.array()).all();
+    const bool within =
+        (p.array() > box_.min.array()).all() && (p.array() < box_.max.array()).all();
     if (within && std::abs(truth_.of(p).distance) < kOnEdge) edges_.push_back(p);
   }
 }
@@ -131,7 +132,8 @@ SurfaceError ErrorMeasure::of(const stock::SurfaceMesh& mesh) const {
   const FacetSolid solid(mesh.vertices, mesh.triangles);
   const RaySpan span{0.0, (box_.max - box_.min).norm()};
   struct OfLine {
-    std::vector<double> crossings, truth, along;
+    std::vector<PathTruth::Offset> crossings;
+    std::vector<double> faces, edges, along;  // of true ends
     bool parted = false;
   };
   std::vector<OfLine> lines(ends_.size());
@@ -139,11 +141,11 @@ SurfaceError ErrorMeasure::of(const stock::SurfaceMesh& mesh) const {
     const Ray ray = line(k);
     OfLine& mine = lines[k];
     for (const FacetSolid::Crossing& at : solid.crossings(ray)) {
-      const PathTruth::Offset off = truth_.of(ray.at(at.s));
-      if (off.is_machined) mine.crossings.push_back(off.distance);
+      mine.crossings.push_back(truth_.of(ray.at(at.s)));
     }
     for (const TrueEnd& end : ends_[k]) {
-      if (end.is_machined) mine.truth.push_back(solid.nearest(end.point).distance);
+      if (!end.off.is_machined) continue;
+      (end.off.is_near_edge ? mine.edges : mine.faces).push_back(solid.nearest(end.point).distance);
     }
     const IntervalSet material = solid.along(ray, span);
     mine.parted = 2 * material.intervals().size() != ends_[k].size();
@@ -153,7 +155,7 @@ SurfaceError ErrorMeasure::of(const stock::SurfaceMesh& mesh) const {
       const double off = (i % 2 == 0 ? piece.lo : piece.hi) - end.s;
       if (std::abs(off) > kSameEnd) {
         mine.parted = true;
-      } else if (end.is_machined) {
+      } else if (end.off.is_machined && !end.off.is_near_edge) {
         mine.along.push_back(off * end.cosine);
       }
     }
@@ -161,9 +163,13 @@ SurfaceError ErrorMeasure::of(const stock::SurfaceMesh& mesh) const {
 
   SurfaceError error;
   error.lines = static_cast<long>(lines.size());
+  const auto count_from_mesh = [&error](const PathTruth::Offset& off) {
+    if (off.is_machined) (off.is_near_edge ? error.at_edges : error.from_mesh).add(off.distance);
+  };
   for (const OfLine& each : lines) {
-    for (const double e : each.crossings) error.crossings.add(e);
-    for (const double e : each.truth) error.truth.add(e);
+    for (const PathTruth::Offset& off : each.crossings) count_from_mesh(off);
+    for (const double e : each.faces) error.from_truth.add(e);
+    for (const double e : each.edges) error.at_edges.add(e);
     error.parted_lines += each.parted ? 1 : 0;
     if (each.parted) continue;
     for (const double e : each.along) error.along_lines.add(e);
@@ -175,14 +181,12 @@ SurfaceError ErrorMeasure::of(const stock::SurfaceMesh& mesh) const {
     const auto v = static_cast<std::size_t>(count * uniform({.seed = kSeedOfVertices}, k));
     at_vertices[k] = truth_.of(mesh.vertices[std::min(v, mesh.vertices.size() - 1)]);
   });
-  for (const PathTruth::Offset& off : at_vertices) {
-    if (off.is_machined) error.vertices.add(off.distance);
-  }
+  for (const PathTruth::Offset& off : at_vertices) count_from_mesh(off);
 
   std::vector<double> at_edges(edges_.size());
   for_each_index(edges_.size(),
                  [&](std::size_t k) { at_edges[k] = solid.nearest(edges_[k]).distance; });
-  for (const double e : at_edges) error.edges.add(e);
+  for (const double e : at_edges) error.at_edges.add(e);
   return error;
 }
 

@@ -2,9 +2,10 @@
 //
 // Model    : random lines, of any direction and place alike, meet every part of a surface in
 //            proportion to its area (Crofton). Where they cross the mesh, and at its vertices, the
-//            true surface is asked for its distance; where they cross the true surface, and at
-//            points of its sharp edges, the mesh is asked for its own. Both count, on the surfaces
-//            that the cutter made: flank, ground and posts, with their edges
+//            true surface is asked for its distance; where they cross the true surface, the mesh is
+//            asked for its own. Both count, on all surfaces that the cutter made. What is within
+//            1 mm of the cut surface and of the blank's at once, and points of the true sharp edges
+//            themselves, are a sum of their own: a mesh may be good on faces and blunt at edges
 // Units    : mm
 // Errors   : none; the mesh must be closed
 // Accuracy : of each distance 1e-9 mm; the worst is that of the points asked, not of all
@@ -31,23 +32,22 @@ struct ErrorSum {
 };
 
 struct SurfaceError {
-  ErrorSum crossings{};  // of lines with the mesh, to the truth; outside the material positive
-  ErrorSum vertices{};   // of the mesh, to the truth
-  ErrorSum truth{};      // points of the true faces, to the mesh
-  ErrorSum edges{};      // points of the true sharp edges, to the mesh
-  // Along the same line, mesh against our exact engine, times the cosine to the true normal.
+  ErrorSum from_mesh{};   // faces: crossings and vertices, to the truth; outside positive
+  ErrorSum from_truth{};  // faces: ends of the same lines, to the mesh
+  ErrorSum at_edges{};    // both, and points of the true sharp edges
+  // Faces along the same line, mesh against our exact engine, times the cosine to the true normal.
   ErrorSum along_lines{};
   long lines = 0;
   long parted_lines = 0;  // one of the two met an edge that the other passed: not in along_lines
 
-  [[nodiscard]] double worst() const;
-  [[nodiscard]] double rms() const;  // of both directions
+  [[nodiscard]] double worst_on_faces() const;
+  [[nodiscard]] double rms_on_faces() const;
 };
 
 struct ErrorOptions {
   int lines = 4000;
   int vertices = 4000;
-  int edges = 1000;
+  int edges = 1000;  // lines that look for them
 };
 
 // What is measured against, prepared once a scene.
@@ -64,7 +64,7 @@ class ErrorMeasure {
     double s = 0.0;
     Vec3 point = Vec3::Zero();
     double cosine = 0.0;  // between the line and the normal
-    bool is_machined = false;
+    PathTruth::Offset off{};
   };
   [[nodiscard]] Ray line(std::uint64_t k) const;
   void find_ends(const stock::Workpiece& part);
