@@ -3,10 +3,11 @@
 # ORACLE=1 make test also compares with LinuxCNC's interpreter, which it installs.
 JOBS ?= $(shell nproc)
 ORACLE ?= 0
+PEERS_BLOCKS ?= 7200
 BUILD = cmake --build --parallel $(JOBS)
 DEMO_OUT = out/cone
 
-.PHONY: help demo build test laws setup asan fuzz bench format check-format tidy clean
+.PHONY: help demo build test laws setup asan fuzz bench peers format check-format tidy clean
 .DEFAULT_GOAL := help
 
 help:
@@ -19,6 +20,8 @@ help:
 	@echo 'make asan          the tests under the address and undefined-behaviour sanitizers'
 	@echo 'make fuzz          libFuzzer on NC dialects, plans, points, machines, jobs, FUZZ_SECONDS=600 each, JOBS at a time'
 	@echo 'make bench         build and run the benchmarks'
+	@echo 'make peers         time, memory and surface error beside Manifold, CGAL and a plain tri-dexel, some minutes;'
+	@echo '                   PEERS_BLOCKS=720 for less, PEERS="--scene both --all" for more, MANIFOLD=where it is installed'
 	@echo 'make format        format every source file; make check-format only looks'
 	@echo 'make tidy          clang-tidy over the sources (make tidy FILES="core/pose.cpp" for some)'
 	@echo 'make clean         remove build/ and out/'
@@ -54,6 +57,11 @@ bench: build/bench/build.ninja
 	$(BUILD) --preset bench --target frustum_bench frustum_nc_bench
 	build/bench/bench/frustum_bench
 	build/bench/bench/frustum_nc_bench
+
+peers: build/bench/build.ninja
+	cmake --preset bench $(if $(MANIFOLD),-DCMAKE_PREFIX_PATH=$(abspath $(MANIFOLD))) > /dev/null
+	$(BUILD) --preset bench --target frustum_peers
+	build/bench/bench/frustum_peers --blocks $(PEERS_BLOCKS) $(PEERS)
 
 format:
 	scripts/format
