@@ -28,7 +28,7 @@ constexpr double kSurroundings = 0.05;
 constexpr std::uint32_t kMostBlocks = 16;
 // Where the path comes as near as this once more (mm), that counts among them: other passes leave
 // an allowance of more.
-constexpr double kVisit = 0.12;
+constexpr double kVisit = 0.045;
 // More pieces are no window: then the contact is looked for in its surroundings.
 constexpr std::uint32_t kMostWindow = 8;
 // A window is wide enough when machines at this share of the proof's limits are proven; they drift

@@ -44,17 +44,16 @@ class LeastDistance {
   LeastDistance(const cutter::Body& body, const cutter::SegmentMotion& motion, const Vec3& point)
       : body_(body), motion_(motion), point_(point) {}
 
-  // Not looked into where it is more than enough.
-  [[nodiscard]] double find(const BodyDistance& begin, const BodyDistance& end,
-                            double enough) const {
-    return between({0.0, begin}, {1.0, end}, enough, 0);
-  }
-
- private:
   struct Moment {
     double t = 0.0;
     BodyDistance off{};
   };
+  // Not looked into where it is more than enough.
+  [[nodiscard]] double find(const Moment& begin, const Moment& end, double enough) const {
+    return between(begin, end, enough, 0);
+  }
+
+ private:
   [[nodiscard]] double between(const Moment& a, const Moment& b, double enough, int depth) const {
     const double dt = b.t - a.t;
     const double fall = std::max(0.0, dt * a.off.out.dot(motion_.velocity(point_, a.t)));
@@ -214,25 +213,62 @@ void WindowBounds::take_segment(Closeness& closeness, const ContactPlace& at,
   const ToolPath& path = workpiece_.removed().path();
   const cutter::Body& body = workpiece_.removed().tool(tool).body();
   const cutter::SegmentMotion motion(path, segment, body.reach());
-  const ToolPose &from = path.from(segment), &to = path.to(segment);
-  const BodyDistance a = from_body(body, from, at.point), b = from_body(body, to, at.point);
   const double enough = 2.0 * kMostScale * 2.0 * largest_;
-  const double least = LeastDistance(body, motion, at.point).find(a, b, enough);
-  if (!(least > 0.0)) {
-    closeness.per_scale = closeness.per_drift = kNever;
-    return;
-  }
+  // Both ends of a part: how far off, and how much nearer it comes.
+  struct Moment {
+    double t = 0.0;
+    BodyDistance off{};
+    double nearer = 0.0, lean = 0.0;
+  };
+  const auto moment = [&](double t) {
+    const ToolPose pose = motion.at(t);
+    Moment m{t, from_body(body, pose, at.point)};
+    m.lean = across(m.off.out, at.normal).norm();
+    if (m.off.value > enough) {
+      m.nearer = 2.0 * largest_;
+    } else if (t == 0.0 || t == 1.0) {
+      const std::uint32_t end = segment.first_pose + (t == 0.0 ? 0 : 1);
+      m.nearer = sum_at_limits(
+          nearer(at, m.off.out, pose, motions_at(of_poses_, end, path.axes[end], tool)));
+    } else {
+      kinematics::AxisState state = path.axes[segment.first_pose];
+      const kinematics::AxisState& next = path.axes[segment.first_pose + 1];
+      for (const auto letter : kinematics::kAxisLetters) {
+        state.q[letter] += t * (next.q[letter] - state.q[letter]);
+        state.heading[letter] += t * (next.heading[letter] - state.heading[letter]);
+      }
+      Known fresh;
+      m.nearer = sum_at_limits(nearer(at, m.off.out, pose, motions_at(fresh, 0, state, tool)));
+    }
+    m.nearer = std::min(m.nearer, 2.0 * largest_);
+    return m;
+  };
+  // A long segment comes nearer at one end than at the other: its parts count for themselves.
+  const auto take_part = [&](const auto& self, const Moment& a, const Moment& b,
+                             int depth) -> void {
+    const double least =
+        LeastDistance(body, motion, at.point).find({a.t, a.off}, {b.t, b.off}, enough);
+    constexpr int kDeepest = 8;
+    const double most = std::max(a.off.value, b.off.value);
+    const bool is_long = most > 1.2 * least && motion.travel() * (b.t - a.t) > 0.02;
+    if (least < enough && is_long && depth < kDeepest) {
+      const Moment middle = moment(0.5 * (a.t + b.t));
+      self(self, a, middle, depth + 1);
+      self(self, middle, b, depth + 1);
+    } else if (least > 0.0) {
+      take(closeness,
+           {std::max(a.nearer, b.nearer) / least, std::max(a.lean, b.lean) / least, 0.0});
+    } else {
+      closeness.per_scale = closeness.per_drift = kNever;
+    }
+  };
+  const BodyDistance a = from_body(body, path.from(segment), at.point);
+  const BodyDistance b = from_body(body, path.to(segment), at.point);
+  const double least = LeastDistance(body, motion, at.point).find({0.0, a}, {1.0, b}, enough);
   if (least > enough) {
     take(closeness, {2.0 * largest_ / least, 1.0 / least, 0.0});
-    return;
-  }
-  for (const bool begin : {true, false}) {
-    const std::uint32_t pose = segment.first_pose + (begin ? 0 : 1);
-    const BodyDistance& d = begin ? a : b;
-    const auto by =
-        nearer(at, d.out, path.poses[pose], motions_at(of_poses_, pose, path.axes[pose], tool));
-    take(closeness, {std::min(sum_at_limits(by), 2.0 * largest_) / least,
-                     across(d.out, at.normal).norm() / least, 0.0});
+  } else {
+    take_part(take_part, moment(0.0), moment(1.0), 0);
   }
 }
 
