@@ -90,8 +90,9 @@ std::optional<std::size_t> FactorReader::add_amount(Amount& amount, const std::s
     drawn.parts.push_back({at, factor.shift, factor.function});
     variables.push_back(at);
   }
+  set_.written_.push_back(set_.amounts_.size());
   set_.amounts_.push_back(std::move(drawn));
-  return set_.amounts_.size() - 1;
+  return set_.written_.back();
 }
 
 std::optional<kinematics::GeometricErrors> FactorReader::unit_of(const ErrorEntry& entry,
