@@ -9,15 +9,18 @@ namespace {
 
 // Motions whose part beside all others is this share of the largest are the others again.
 constexpr double kSameMotion = 1e-9;
+// A motion of this share of the largest is rounding: levers are from 1 to 1,000 mm.
+constexpr double kNoMotion = 1e-12;
 
 }  // namespace
 
 Eigen::MatrixXd centred(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& motions) {
   // Of one size, so that turning and shifting count alike.
   Eigen::MatrixXd scaled = motions;
+  const double largest = scaled.colwise().norm().maxCoeff();
   for (Eigen::Index k = 0; k < scaled.cols(); ++k) {
     const double length = scaled.col(k).norm();
-    if (length > 0.0) scaled.col(k) /= length;
+    scaled.col(k) *= length > kNoMotion * largest ? 1.0 / length : 0.0;
   }
   const SingularValues svd = singular_values(scaled, SingularVectors::thin);
   Eigen::Index rank = 0;

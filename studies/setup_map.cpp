@@ -14,6 +14,21 @@ namespace {
 
 constexpr double kShown = 1.0;  // um
 
+// Second moments of the weights, factor by factor.
+Eigen::MatrixXd own_second_moments(const FactorSet& set) {
+  const WeightMoments moments = set.weight_moments();
+  Eigen::MatrixXd second = moments.covariance;
+  for (const Factor& factor : set.factors()) {
+    for (const std::size_t i : factor.columns) {
+      for (const std::size_t j : factor.columns) {
+        const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
+        second(row, column) += moments.mean[row] * moments.mean[column];
+      }
+    }
+  }
+  return second;
+}
+
 double range_of(const Eigen::VectorXd& x) { return x.maxCoeff() - x.minCoeff(); }
 
 // The largest range of a cos psi + b sin psi over psi: 180 phases are right to 4e-4 of it.
@@ -40,9 +55,8 @@ Result<MapRow> row_of(const kinematics::Machine& machine,
   MapRow row{.cone_angle_deg = ring.half_angle * kDegPerRad,
              .inclination_deg = ring.inclination * kDegPerRad,
              .center_mm = {ring.center.x(), ring.center.y(), ring.center.z()}};
-  // The eigenvalues of G C G^T are those of L^T G^T G L, C = L L^T.
-  const Eigen::MatrixXd covariance = set->weight_moments().covariance;
-  const Eigen::MatrixXd points = gains * covariance * gains.transpose();
+  // Sum and sum of squares of the eigenvalues are trace and squared norm.
+  const Eigen::MatrixXd points = gains * own_second_moments(*set) * gains.transpose();
   const double trace = points.trace();
   row.rms_um = std::sqrt(trace / static_cast<double>(points.rows()));
   row.directions = trace * trace / points.squaredNorm();

@@ -26,7 +26,7 @@ TEST(OrderStatisticsReference, RanksAreThoseOfTheIndependentComputation) {
 
 // The tails, summed term by term.
 TEST(OrderStatistics, RanksHaveTheBinomialTailsThatTheyPromise) {
-  for (const std::uint64_t n : {1U, 5U, 40U, 333U}) {
+  for (const std::uint64_t n : {1U, 5U, 40U, 250U}) {
     for (const double p : {0.05, 0.5, 0.9}) {
       std::vector<double> at_most{std::pow(1.0 - p, static_cast<double>(n))};
       double term = at_most.front();

@@ -46,7 +46,7 @@ TEST(RandomField, DrawsHaveTheCovarianceOfTheKernel) {
   ASSERT_TRUE(set) << to_string(set.error().front());
   EXPECT_EQ(set->factors().size(), 1U);
   EXPECT_EQ(set->columns().size(), 2 * 37 + 1U);
-  constexpr std::uint32_t kDraws = 4000;
+  constexpr std::uint32_t kDraws = 1000;
   std::vector<double> values(set->variables().size());
   double square = 0.0, near = 0.0;
   for (std::uint32_t d = 0; d < kDraws; ++d) {

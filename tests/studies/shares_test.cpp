@@ -23,7 +23,7 @@ std::map<std::string, std::vector<std::string>> published_groups() {
           {"hysteresis", {"*:reversal"}},
           {"location", {"E?0?"}},
           {"B axis", {"E?B:linear", "E?B:harmonic"}},
-          {"C axis", {"E?C:linear", "E?C:harmonic"}}};
+          {"C axis", {"E?C:harmonic"}}};
 }
 
 TEST(SharesReference, MeanSquaresAreThoseOfTheIndependentComputation) {
