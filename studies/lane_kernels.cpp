@@ -156,8 +156,8 @@ FRUSTUM_INLINE void store(const FourRows& sum, LaneRow<float>* out) {
   floats_of(out[3])[1] = sum.d1;
 }
 
-FRUSTUM_INLINE Floats larger(Floats a, Floats b) { return a > b ? a : b; }
-FRUSTUM_INLINE Floats lesser(Floats a, Floats b) { return a < b ? a : b; }
+FRUSTUM_INLINE Floats larger(const Floats& a, const Floats& b) { return a > b ? a : b; }
+FRUSTUM_INLINE Floats lesser(const Floats& a, const Floats& b) { return a < b ? a : b; }
 
 FRUSTUM_INLINE void screens_in_lanes(const ScreenFactors& factors, const LaneRow<float>* weights,
                                      LaneRow<float>* combinations, LaneRow<float>* screens,
