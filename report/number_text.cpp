@@ -92,4 +92,18 @@ std::string exact_decimal(double value) {
   return shortest_decimal(value);
 }
 
+std::string xml_decimal(double value) {
+  constexpr std::size_t kDigits = 18;
+  std::string text = exact_decimal(value);
+  const std::size_t sign = text.front() == '-' ? 1 : 0;
+  const std::size_t point = text.find('.');
+  if (point == std::string::npos || text.size() - sign - 1 <= kDigits) return text;
+  const std::size_t before = point - sign;
+  text = fixed_decimal(value, before < kDigits ? static_cast<int>(kDigits - before) : 0);
+  if (text.find('.') == std::string::npos) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
 }  // namespace frustum::report

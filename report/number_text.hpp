@@ -52,4 +52,8 @@ namespace frustum::report {
 // exponent; "0" for what is not finite.
 [[nodiscard]] std::string exact_decimal(double value);
 
+// The same within what every reader of XML takes of an xs:decimal, 18 digits in all: small numbers
+// are rounded to 17 decimals.
+[[nodiscard]] std::string xml_decimal(double value);
+
 }  // namespace frustum::report

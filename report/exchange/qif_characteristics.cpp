@@ -255,7 +255,7 @@ void add_measured_characteristics(xml_node results, const InspectionPlan& plan,
     const double standard = document_value(0.5 * result.expanded_uncertainty, result);
     xml_node value = add_number(node, "Value", document_value(result.value, result));
     if (std::isfinite(standard) && !result.is_accuracy_unknown) {
-      value.append_attribute("combinedUncertainty") = exact_decimal(standard).c_str();
+      value.append_attribute("combinedUncertainty") = xml_decimal(standard).c_str();
     }
   }
   close_list(list);

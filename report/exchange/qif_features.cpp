@@ -171,7 +171,7 @@ void add_points(xml_node sets, const MeasuredFeature& feature, int id) {
   int count = 0;
   for (const metrology::MeasuredPoint& p : feature.points) {
     if (!p.point.allFinite()) continue;
-    for (const double x : p.point) numbers += (numbers.empty() ? "" : " ") + exact_decimal(x);
+    for (const double x : p.point) numbers += (numbers.empty() ? "" : " ") + xml_decimal(x);
     ++count;
   }
   xml_node set = add(sets, "MeasuredPointSet");

@@ -19,13 +19,13 @@ pugi::xml_node add_text(pugi::xml_node parent, const std::string& name, std::str
 }
 
 pugi::xml_node add_number(pugi::xml_node parent, const std::string& name, double value) {
-  return add_text(parent, name, exact_decimal(value));
+  return add_text(parent, name, xml_decimal(value));
 }
 
 pugi::xml_node add_vector(pugi::xml_node parent, const std::string& name, const Vec3& vector) {
-  return add_text(parent, name,
-                  exact_decimal(vector.x()) + ' ' + exact_decimal(vector.y()) + ' ' +
-                      exact_decimal(vector.z()));
+  return add_text(
+      parent, name,
+      xml_decimal(vector.x()) + ' ' + xml_decimal(vector.y()) + ' ' + xml_decimal(vector.z()));
 }
 
 pugi::xml_node add_reference(pugi::xml_node parent, const std::string& name, int id) {

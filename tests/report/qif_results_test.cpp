@@ -287,6 +287,16 @@ TEST(QifResults, WritesDecimalsWithoutExponent) {
   EXPECT_EQ(std::strtod(exact_decimal(5e-324).c_str(), nullptr), 5e-324);
 }
 
+TEST(QifResults, Attack3_1_DecimalsHaveAtMostEighteenDigits) {
+  EXPECT_EQ(xml_decimal(1.4210854715202004e-14), "0.00000000000001421");
+  EXPECT_EQ(xml_decimal(-3.5e-32), "0");
+  EXPECT_EQ(xml_decimal(-35.242640687119284), "-35.242640687119284");
+  EXPECT_EQ(xml_decimal(1.0 + 0x1p-52), "1.0000000000000002");
+  EXPECT_EQ(xml_decimal(0.1), "0.1");
+  EXPECT_EQ(xml_decimal(1e-17), "0.00000000000000001");
+  EXPECT_EQ(xml_decimal(std::nextafter(1e-5, 1.0)), "0.00001");
+}
+
 xml_node named(const pugi::xml_document& document, const char* element, const char* child,
                const std::string& text) {
   return document.find_node([&](xml_node node) {
@@ -308,9 +318,10 @@ TEST(QifResults, HoldsTheNumbersInItsUnits) {
     return m.report.measurement.characteristics.at(m.report.measurement.find(name).value());
   };
   const xml_node form = measured("ConicityCharacteristic", "cone.form");
-  EXPECT_DOUBLE_EQ(form.child("Value").text().as_double(), 1e-3 * result("cone.form").value);
-  EXPECT_DOUBLE_EQ(form.child("Value").attribute("combinedUncertainty").as_double(),
-                   0.5e-3 * result("cone.form").expanded_uncertainty);
+  constexpr double kLastDigit = 1e-17;  // numbers have 18 digits, one of them before the point
+  EXPECT_NEAR(form.child("Value").text().as_double(), 1e-3 * result("cone.form").value, kLastDigit);
+  EXPECT_NEAR(form.child("Value").attribute("combinedUncertainty").as_double(),
+              0.5e-3 * result("cone.form").expanded_uncertainty, kLastDigit);
   EXPECT_EQ(child_text(form, {"Status", "CharacteristicStatusEnum"}), "FAIL");
   const xml_node angle = measured("AngleCharacteristic", "cone.half_angle");
   EXPECT_DOUBLE_EQ(angle.child("Value").text().as_double(), result("cone.half_angle").value);
@@ -356,7 +367,9 @@ TEST(QifResults, StatesHalfTheExpandedUncertainty) {
   };
   // From um, urad and deg to the document's mm and deg.
   EXPECT_DOUBLE_EQ(uncertainty("ConicityCharacteristicMeasurement"), 0.75e-3);
-  EXPECT_DOUBLE_EQ(uncertainty("AngleBetweenCharacteristicMeasurement"), 0.75e-6 * kDegPerRad);
+  constexpr double kLastDigit = 1e-17;  // numbers have 18 digits, one of them before the point
+  EXPECT_NEAR(uncertainty("AngleBetweenCharacteristicMeasurement"), 0.75e-6 * kDegPerRad,
+              kLastDigit);
   EXPECT_DOUBLE_EQ(uncertainty("AngleCharacteristicMeasurement"), 0.75);
 }
 

@@ -43,7 +43,8 @@ std::string document_of_all_kinds() {
     measured.kind = measured.name;
     measured.parameters = {
         {"point", {0, 0, 5}}, {"axis", {0, 0, 1}}, {"radius", {20.0}}, {"half_angle", {0.5}}};
-    measured.points = {{Vec3(1, 2, 3), Vec3::UnitX(), 0.001, 0}, {Vec3(0.1, 2, 3)}};
+    measured.points = {{Vec3(1, 2, 3), Vec3::UnitX(), 0.001, 0}, {Vec3(0.1, 2, -3e-32)}};
+    measured.form = 1.4210854715202004e-14;
     report.measurement.features.push_back(std::move(measured));
   }
   for (const metrology::PlannedFeature& feature : plan.features) {
@@ -55,7 +56,7 @@ std::string document_of_all_kinds() {
       metrology::CharacteristicResult result;
       result.name = planned.name;
       result.kind = std::string(name_of(kind));
-      result.value = 1.5;
+      result.value = 2.528618964906978e-10;  // more digits than some readers take
       result.unit = kind == CharacteristicKind::half_angle   ? "deg"
                     : kind == CharacteristicKind::line_angle ? "urad"
                                                              : "um";
