@@ -23,8 +23,8 @@ struct Crossing {
   double value;
   double slack;
 };
-Crossing crossing(const TangentPlane& plane, const ToolPose& representative,
-                  const PoseGroup& group, const Ray& ray) {
+Crossing crossing(const TangentPlane& plane, const ToolPose& representative, const PoseGroup& group,
+                  const Ray& ray) {
   const LatitudePlane latitude{plane.axial, plane.lateral, plane.offset,
                                plane.side.cross(representative.axis)};
   const GroupBeyond beyond = most_beyond(group, latitude, ray.at(plane.direction * plane.value),
@@ -42,8 +42,7 @@ bool surely_apart(const PoseGroup& group, const Profile& part, const Ray& ray) {
     const double side = across.dot(offset) > 0.0 ? 1.0 : -1.0;
     if (apart(across * (side / sine))) return true;
   }
-  const Vec3 facing =
-      group.middle.axis - ray.direction.dot(group.middle.axis) * ray.direction;
+  const Vec3 facing = group.middle.axis - ray.direction.dot(group.middle.axis) * ray.direction;
   const double length = facing.norm();
   if (length < 1e-3) return false;
   const double middle = 0.5 * (part.bottom() + part.height());

@@ -22,14 +22,15 @@
 namespace frustum::cutter {
 
 struct PoseGroup {
-  Box box{};          // of all that the cutter covers in these segments
-  ToolPose middle{};  // near the middle of the poses; not on the path, and its axis not quite a unit
+  Box box{};  // of all that the cutter covers in these segments
+  ToolPose
+      middle{};  // near the middle of the poses; not on the path, and its axis not quite a unit
   Mat3 frame = Mat3::Identity();  // columns: directions of the oriented box, units within 1e-7
   Vec3 tip_half = Vec3::Zero();
   Vec3 axis_half = Vec3::Zero();
   double axis_shift = 0.0;  // no axis is farther from the middle's
   double tip_turn = 0.0;    // nor is (way of the tip) x (turn of the axis) of any pose more (mm)
-  double shift = 0.0;  // nor any point of the cutter from its place at the representative (mm)
+  double shift = 0.0;       // nor any point of the cutter from its place at the representative (mm)
   // One of the segments: where it begins is the group's representative.
   std::uint32_t representative_segment = 0;
   std::uint32_t earliest = 0;  // the first of the segments in program order

@@ -196,8 +196,8 @@ class Builder {
   // All but the box and where it leads.
   void describe(Place place, std::uint32_t first, std::uint32_t count, const Mat3& directions) {
     Mat3 frame = Mat3::Identity();
-    if (directions.allFinite() && std::abs(directions.determinant() * directions.determinant() -
-                                           1.0) < 1e-3) {
+    if (directions.allFinite() &&
+        std::abs(directions.determinant() * directions.determinant() - 1.0) < 1e-3) {
       const Vec3 one = single(directions.col(0)), two = single(directions.col(1));
       frame << one, two, one.cross(two);
     }
@@ -247,8 +247,7 @@ class Builder {
       tip_turn2 = std::max(tip_turn2, tip2 * axis2);
     }
     const double tip_shift = std::sqrt(tip_shift2) + tip_rounding;
-    const double axis_shift =
-        one_axis ? 0.0 : std::sqrt(axis_shift2) + sagitta + kAxisRounding;
+    const double axis_shift = one_axis ? 0.0 : std::sqrt(axis_shift2) + sagitta + kAxisRounding;
     const ToolPose& at = from(representative);
     GroupPair& pair = pairs_[place.pair];
     const std::size_t half = place.half;
@@ -263,10 +262,9 @@ class Builder {
           one_axis ? 0.0F : above(axis_half[k] + 1.001 * sagitta + kAxisRounding);
     }
     pair.axis_shift[half] = above(axis_shift);
-    pair.tip_turn[half] =
-        one_axis ? 0.0F
-                 : above(std::sqrt(tip_turn2) + tip_rounding * axis_shift +
-                         tip_shift * (1.001 * sagitta + kAxisRounding));
+    pair.tip_turn[half] = one_axis ? 0.0F
+                                   : above(std::sqrt(tip_turn2) + tip_rounding * axis_shift +
+                                           tip_shift * (1.001 * sagitta + kAxisRounding));
     pair.shift[half] = above(tip_shift + (at.tip - middle.tip).norm() +
                              reach_ * (axis_shift + (at.axis - middle.axis).norm()));
     pair.representative_segment[half] = order_[representative];

@@ -23,8 +23,8 @@ class EndPlanes {
     const auto& segment = question_.path->segments[end.segment];
     const ToolPose &from = question_.path->from(segment), &to = question_.path->to(segment);
     if (end.t == 0.0 || end.t == 1.0) {
-      return {body_, question_.ray, {end.s, end.section, end.face, end.t == 0.0 ? from : to},
-              leaving};
+      return {
+          body_, question_.ray, {end.s, end.section, end.face, end.t == 0.0 ? from : to}, leaving};
     }
     const SegmentMotion motion(from, to, body_.reach());
     return {body_, question_.ray, {end.s, end.section, end.face, motion.at(end.t)}, leaving};
@@ -171,7 +171,8 @@ class Front {
     if (change_ == 0) return {};
     const Overreach over = plane().overreach(groups);
     const auto of = [&](std::size_t half) {
-      return GroupLimit{over.most[half] <= 0.0, over.most[half] == kInfinity,
+      return GroupLimit{over.most[half] <= 0.0,
+                        over.height[half] < 0.0 || over.most[half] == kInfinity,
                         front_.s + over.most[half]};
     };
     return {of(0), of(1)};
