@@ -182,8 +182,8 @@ Cutter with_level_land() {
                         .run_out = {0.5}});
 }
 
-// The land slides along the ray for 50 mm: by steps as long as it is away from the ray, each of which
-// asks all moments, that were some 10^9 looks and half a minute.
+// The land slides along the ray for 50 mm: by steps as long as it is away from the ray, each of
+// which asks all moments, that were some 10^9 looks and half a minute.
 TEST(HollowCutterLaws, LongLevelSegmentsLeaveARayInTheEndPlaneAlone) {
   const Cutter tool = with_level_land();
   const Vec3 axis = Vec3(0.1, 0.2, 1.0).normalized();
