@@ -7,12 +7,14 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "core/pose.hpp"
 
-#ifdef __SSE2__
-#include <emmintrin.h>
+// Where one instruction does it for both, and the compiler would take two and more.
+#if defined(__SSE2__) && defined(__GNUC__) && !defined(__clang__)
+#define FRUSTUM_BOTH_AT_ONCE
 #endif
 
 namespace frustum::cutter {
@@ -22,16 +24,17 @@ using FloatPair = std::array<float, 2>;
 
 [[nodiscard]] inline Both both(double x) { return Both{x, x}; }
 [[nodiscard]] inline Both both(const FloatPair& pair) {
-#ifdef __SSE2__
-  return _mm_cvtps_pd(
-      _mm_castsi128_ps(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(pair.data()))));
+#ifdef FRUSTUM_BOTH_AT_ONCE
+  using Bits = long long __attribute__((vector_size(16)));
+  using Floats = float __attribute__((vector_size(16)));
+  return __builtin_ia32_cvtps2pd(reinterpret_cast<Floats>(Bits{std::bit_cast<long long>(pair), 0}));
 #else
   return Both{pair[0], pair[1]};
 #endif
 }
 [[nodiscard]] inline Both square_root(Both x) {
-#ifdef __SSE2__
-  return _mm_sqrt_pd(x);
+#ifdef FRUSTUM_BOTH_AT_ONCE
+  return __builtin_ia32_sqrtpd(x);
 #else
   return Both{std::sqrt(x[0]), std::sqrt(x[1])};
 #endif

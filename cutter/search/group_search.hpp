@@ -125,7 +125,11 @@ class GroupSearch {
              GroupReach reach) {
     // Else so far apart that one pose says nothing about the others.
     if (limit.counts_representative && groups.shift[index % 2] <= sweep_.body->reach()) {
-      reach = reach_by_representative(groups.group(index % 2), limit.hi == kInfinity);
+      if (limit.hi == kInfinity) {
+        reach = reach_by_representative(groups.group(index % 2));
+      } else {
+        take_representative(groups.representative_segment[index % 2]);
+      }
     }
     if (limit.hi < reach.hi) {
       reach.hi = limit.hi;
@@ -136,8 +140,10 @@ class GroupSearch {
     add({goal_.promise(reach), counted, index, goal_.change()});
   }
 
-  // Of the open ones the best is kept apart: mostly it is the next at once.
+  // Of the open ones the best is kept apart: mostly it is the next at once. What is under it is
+  // asked for now, since large trees do not fit into the caches.
   void add(const Candidate& next) {
+    fetch_under(next.group);
     if (!has_best_) {
       best_ = next;
       has_best_ = true;
@@ -147,6 +153,13 @@ class GroupSearch {
     open_.push_back(is_better ? best_ : next);
     std::ranges::push_heap(open_, {}, &Candidate::promise);
     if (is_better) best_ = next;
+  }
+  void fetch_under(std::uint32_t index) const {
+    const GroupPair& groups = pairs_[index / 2];
+    if (groups.count[index % 2] > 0) return;
+    const auto* bytes = reinterpret_cast<const char*>(&pairs_[groups.next[index % 2]]);
+    constexpr std::size_t kLine = 64;
+    for (std::size_t k = 0; k < sizeof(GroupPair); k += kLine) __builtin_prefetch(bytes + k);
   }
   bool take_best(Candidate& next) {
     const bool is_in_heap = !open_.empty() && (!has_best_ || open_.front().promise > best_.promise);
@@ -160,12 +173,25 @@ class GroupSearch {
     return std::exchange(has_best_, false);
   }
 
-  GroupReach reach_by_representative(const PoseGroup& group, bool wants_hi) {
+  // What the parts of the body cover where a segment begins.
+  void take_representative(std::uint32_t segment) {
+    if (segment >= question_.first_excluded) return;
+    const ToolPose& pose = question_.path->from(question_.path->segments[segment]);
+    for (std::uint32_t i = 0; i < parts_.size(); ++i) {
+      if (const auto chord = parts_[i].chord(pose, question_.ray)) take_chord(*chord, segment, i);
+    }
+  }
+  void take_chord(const Chord& chord, std::uint32_t segment, std::uint32_t part) {
+    goal_.take({{chord.lo, segment, part, 0.0, chord.lo_face},
+                {chord.hi, segment, part, 0.0, chord.hi_face}});
+  }
+
+  GroupReach reach_by_representative(const PoseGroup& group) {
     GroupReach reach = kNoReach;
     const ToolPose& representative = group.representative(*question_.path);
     const auto widen = [&](const Profile& part, const std::optional<Chord>& known) {
       const GroupReach more = reach_of(group, representative, part, question_.ray, known,
-                                       {known && goal_.wants_lo(known->lo), wants_hi});
+                                       {known && goal_.wants_lo(known->lo), true});
       reach.lo = std::min(reach.lo, more.lo);
       reach.hi = std::max(reach.hi, more.hi);
       reach.lo_slack = std::min(reach.lo_slack, more.lo_slack);
@@ -173,10 +199,8 @@ class GroupSearch {
     };
     for (std::uint32_t i = 0; i < parts_.size(); ++i) {
       const auto known = parts_[i].chord(representative, question_.ray);
-      if (known && group.representative_segment < question_.first_excluded) {
-        goal_.take({{known->lo, group.representative_segment, i, 0.0, known->lo_face},
-                    {known->hi, group.representative_segment, i, 0.0, known->hi_face}});
-      }
+      if (known && group.representative_segment < question_.first_excluded)
+        take_chord(*known, group.representative_segment, i);
       widen(parts_[i], known);
     }
     for (const Profile& hull : sweep_.body->concave()) {

@@ -43,7 +43,8 @@ class Front {
     if (change_ == 0) return {};
     const Overreach over = plane().overreach(groups);
     const auto of = [&](std::size_t half) {
-      return GroupLimit{over.most[half] <= 0.0, over.most[half] == kInfinity,
+      return GroupLimit{over.most[half] <= 0.0,
+                        over.height[half] < 0.0 || over.most[half] == kInfinity,
                         front_.s + over.most[half]};
     };
     return {of(0), of(1)};

@@ -81,6 +81,17 @@ BothVec SeparatingPlane::way_to_end(const BothVec& m, const BothVec& axis) const
   return (beside / rho) * across + up;
 }
 
+Both SeparatingPlane::height_about(const BothVec& m, const BothVec& axis) const {
+  const Both z = m.dot(axis);
+  const BothVec across = m - z * axis;
+  const Both rho = square_root(across.dot(across));
+  if (round_ == nullptr) return lateral_ * rho + axial_ * z - offset_;
+  const Both beside =
+      round_->major < 0.0 ? rho - round_->major : larger(rho - round_->major, both(0.0));
+  const Both above = z - round_->centre;
+  return square_root(beside * beside + above * above) - round_->radius;
+}
+
 Overreach SeparatingPlane::overreach(const GroupPair& groups, double slack) const {
   if (body_ == nullptr) return {};
   const BothVec axis = both(groups.axis);
@@ -90,6 +101,7 @@ Overreach SeparatingPlane::overreach(const GroupPair& groups, double slack) cons
              half_3 = both(groups.tip_half[2]);
   const Both turn = both(groups.axis_shift);
   BothVec m = both(end_) - both(groups.tip);
+  const Both in_the_middle = height_about(m, axis);
   // From the middle to the place in the box that is nearest to touching the end there.
   Both c_1 = both(0.0), c_2 = both(0.0), c_3 = both(0.0), went = both(0.0);
   if (round_ != nullptr || lateral_ > 0.0) {
@@ -117,7 +129,7 @@ Overreach SeparatingPlane::overreach(const GroupPair& groups, double slack) cons
   const Both infinite = both(std::numeric_limits<double>::infinity());
   const Both height = at.height + slack;
   constexpr double kRounding = 1e-12;  // mm
-  return {fall > 0.0 ? (lost - height) / fall : infinite, height, kRounding / fall};
+  return {fall > 0.0 ? (lost - height) / fall : infinite, in_the_middle, kRounding / fall};
 }
 
 double SeparatingPlane::along(const ToolPose& pose) const {
@@ -149,8 +161,8 @@ double SeparatingPlane::room(const ToolPose& from, const ToolPose& to, double sl
     lost = lost - Both{1.0, -1.0} * by_axis.dot(both(turn)) + step.norm() * chord;
     // From its chord the axis is never farther than turn^2 / 8, and 1.01 is more than the turn has
     // over the chord.
-    bend = 1.01 / 8.0 * chord2 * square_root(larger(m.dot(m), both(0.0)))[0] +
-           1.01 / 8.0 * chord2 * step.norm();
+    const Vec3 from_tip = end_ - from.tip;
+    bend = 1.01 / 8.0 * chord2 * (from_tip.norm() + 2.0 * step.norm());
   }
   const Both fall = at.normal.dot(both(beyond_));
   if (!(fall[0] > chord) || !(fall[1] > chord)) return kUnknown;

@@ -30,8 +30,8 @@ struct EndContact {
 };
 
 // Of two groups: how far along the ray they may cover more than the end (mm; not positive: surely
-// nothing), and how far the end is beyond the plane of a cutter in their middle (less than 0: it
-// may cover more).
+// nothing), and about how far the end is beyond the plane of a cutter in their middle (less than 0:
+// it may well cover more).
 struct Overreach {
   Both most = both(std::numeric_limits<double>::infinity());
   Both height = both(-1.0);
@@ -73,6 +73,8 @@ class SeparatingPlane {
     Both height;  // of the end above the plane
   };
   [[nodiscard]] Planes touching(const BothVec& m, const BothVec& axis) const;
+  // Of the end above the plane of a cutter, about.
+  [[nodiscard]] Both height_about(const BothVec& m, const BothVec& axis) const;
   // From the tip to where it is nearest to the end, as if it could go anywhere.
   [[nodiscard]] BothVec way_to_end(const BothVec& m, const BothVec& axis) const;
   [[nodiscard]] double support(double lateral, double axial) const;

@@ -1,6 +1,7 @@
 #include "cutter/sweep/concave_sweep.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -16,7 +17,8 @@ constexpr double kSameSurface = 1e-11;
 // Steps along a ray are no shorter than this (mm): what begins and ends within one enters by half
 // of it.
 constexpr double kLeastStep = 2.0 * kMissedDepth;
-// Where a ray slides along the surface the least step doubles after so many, up to this (mm).
+// After so many steps it is seen whether the ray is in front of an end, and where it slides along
+// the surface the least step doubles, up to this (mm).
 constexpr int kSlid = 64;
 constexpr double kLongestLeastStep = 1e-3;
 // Of what is sampled of phi nothing is farther from the truth (mm); and moments that bracket one
@@ -85,6 +87,7 @@ ConcaveSweep::ConcaveSweep(const Body& body, const SegmentMotion& motion, const 
 
 // Counted from just below the surface.
 double ConcaveSweep::distance(double s, double t) const {
+  ++looks_;
   return body_.distance(motion_.at(t), ray_.at(s)) + kOnSurface;
 }
 
@@ -104,16 +107,121 @@ bool ConcaveSweep::covers_from(double from, const SweptEnd& end) const {
   return true;
 }
 
+// A body of revolution is between the planes of its ends: what is in front of one of them, but for
+// what counts as on the surface, is not covered. The height over such a plane is linear along the
+// ray, and within bend dt^2 / 8 of a straight line in time.
+bool ConcaveSweep::is_in_front(double lo, double hi) const {
+  struct Part {
+    double t0, height0, t1, height1;
+  };
+  constexpr std::size_t kMostParts = 200;
+  const ToolPose from = motion_.at(0.0);
+  const Vec3 a = ray_.at(lo), b = ray_.at(hi);
+  const double run = (motion_.at(1.0).tip - from.tip).norm();
+  const double far = std::max((a - from.tip).norm(), (b - from.tip).norm()) + run;
+  const double bend = motion_.turn() * (motion_.turn() * far + 2.0 * run);
+  const auto in_front = [&](double up, double end) {
+    const auto height = [&](double t) {
+      const ToolPose pose = motion_.at(t);
+      return std::max(up * (a - pose.tip).dot(pose.axis), up * (b - pose.tip).dot(pose.axis)) - end;
+    };
+    std::array<Part, kMostParts + 1> open;
+    open[0] = {0.0, height(0.0), 1.0, height(1.0)};
+    std::size_t count = 1;
+    for (std::size_t looks = 0; count > 0;) {
+      const Part part = open[--count];
+      const double upper = std::max(part.height0, part.height1), dt = part.t1 - part.t0;
+      if (upper > kOnSurface) return false;
+      if (upper + bend * dt * dt / 8.0 <= kOnSurface) continue;
+      if (++looks == kMostParts) return false;
+      const double t = 0.5 * (part.t0 + part.t1), middle = height(t);
+      open[count++] = {part.t0, part.height0, t, middle};
+      open[count++] = {t, middle, part.t1, part.height1};
+    }
+    return true;
+  };
+  return in_front(1.0, 0.0) || in_front(-1.0, -body_.height());
+}
+
+// From a place where it is not covered to how far it surely is not, because it is in front of an
+// end; the place itself where that is nearby.
+double ConcaveSweep::in_front_from(double s, double hi) const {
+  if (is_in_front(s, hi)) return hi;
+  double sure = s;
+  for (double step = 0.5 * (hi - s); step > kLongestLeastStep; step *= 0.5) {
+    if (is_in_front(sure, sure + step)) sure += step;
+  }
+  return sure;
+}
+
+// The body at one moment goes on until the ray crosses its surface: for straight pieces of the
+// generatrix that is known, to arcs it is at least the distance.
+double ConcaveSweep::covered_until(double s, double t, double hi) const {
+  constexpr double kBefore = 1e-9;  // mm, above rounding
+  const ToolPose pose = motion_.at(t);
+  const double dz = ray_.direction.dot(pose.axis);
+  const Vec3 v = ray_.direction - dz * pose.axis;
+  // A land of the end is met at a slant that arcs far from it do not care about: again and again.
+  constexpr int kMostSteps = 100;
+  double sure = s;
+  for (int i = 0; i < kMostSteps && sure < hi; ++i) {
+    const Vec3 m = ray_.at(sure) - pose.tip;
+    const double z = m.dot(pose.axis);
+    const Vec3 w = m - z * pose.axis;
+    double next = hi - sure;
+    const auto offer = [&](const GeneratrixSegment& piece) {
+      if (is_arc(piece)) {
+        next = std::min(next, std::abs(std::hypot(w.norm() - piece.centre.r, z - piece.centre.z) -
+                                       piece.arc_radius));
+        return;
+      }
+      const double rise = piece.to.z - piece.from.z, out = piece.to.r - piece.from.r;
+      // (rise rho)^2 = (rise r + out (z - z_from))^2 on the cone through it; twice the plane.
+      const double r = rise * piece.from.r + out * (z - piece.from.z), e = out * dz;
+      const double a = rise * rise * v.squaredNorm() - e * e;
+      const double b = rise * rise * w.dot(v) - r * e;
+      const double c = rise * rise * w.squaredNorm() - r * r;
+      const double root2 = b * b - a * c;
+      if (root2 < 0.0) return;
+      const double q = -(b + std::copysign(std::sqrt(root2), b));
+      for (const double u : {q / a, c / q}) {
+        if (u > 0.0) next = std::min(next, u);
+      }
+    };
+    for (const GeneratrixSegment& piece : body_.generatrix().segments()) offer(piece);
+    const MeridianPoint rim = body_.generatrix().segments().back().to;
+    offer(line(rim, {0.0, rim.z}));
+    next -= kBefore;
+    if (next < kLeastStep || !(distance(sure + next, t) < 0.0)) break;
+    sure += next;
+  }
+  return sure;
+}
+
 void ConcaveSweep::walk(double lo, double hi, std::vector<SegmentInterval>& found) const {
   LeastStep least;
   double s = lo;
   Nearest here = nearest(s);
   std::optional<SweptEnd> begin;
   if (here.distance < 0.0) begin = SweptEnd{s, here.t};
-  while (s < hi) {
+  for (int step = 0; s < hi; ++step) {
     const double away = std::abs(here.distance);
     const double sure = std::max(away, least.at(away));
+    if (!begin && step % kSlid == 0) {
+      if (const double next = in_front_from(s, hi); next > s) {
+        s = next;
+        here = {kOnSurface, here.t};
+        continue;
+      }
+    }
     double next = std::min(hi, s + 1.8 * sure);
+    if (begin) {
+      if (const double covered = covered_until(s, here.t, hi); covered > next) {
+        s = covered;
+        here = nearest(s);
+        continue;
+      }
+    }
     Nearest there = nearest(next);
     const bool flips = (there.distance < 0.0) != (here.distance < 0.0);
     if (!flips && std::abs(there.distance) + sure < next - s) {  // an end may be between

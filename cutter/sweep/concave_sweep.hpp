@@ -5,7 +5,8 @@
 //            body there covers all the way up to it. What remains is walked: with d(x, t) the
 //            signed distance of a point to the body at time t, phi(x) = min over t of d is below
 //            zero exactly where the segment covers; along a ray it changes by at most the way, so
-//            that steps as long as phi never pass an end
+//            that steps as long as phi never pass an end. Longer steps are sure where the body as
+//            it is at one moment goes on along the ray, and in front of its ends
 // Units    : mm; frame: workpiece
 // Errors   : none
 // Accuracy : ends within 0.1 nm normal to the surface of what is sampled of phi, and that within 10
@@ -16,6 +17,7 @@
 // Source   : sphere tracing (Hart 1996) of a minimum of distances
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "cutter/body/body.hpp"
@@ -43,6 +45,8 @@ class ConcaveSweep {
   void walk(double lo, double hi, std::vector<SegmentInterval>& found) const;
   // When the body's surface, or its inside, is nearest to the ray's point at s.
   [[nodiscard]] double nearest_state(double s) const { return nearest(s).t; }
+  // How often it has asked how far a point is from the body.
+  [[nodiscard]] std::size_t looks() const { return looks_; }
 
  private:
   // The least signed distance over the segment, and when.
@@ -50,6 +54,11 @@ class ConcaveSweep {
     double distance = 0.0;
     double t = 0.0;
   };
+  // Whether all of lo to hi is in front of one end of the body, or on it, all the time.
+  [[nodiscard]] bool is_in_front(double lo, double hi) const;
+  [[nodiscard]] double in_front_from(double s, double hi) const;
+  // How far the body as it is at time t surely covers the ray from s on, where it covers it.
+  [[nodiscard]] double covered_until(double s, double t, double hi) const;
   [[nodiscard]] Nearest nearest(double s) const;
   [[nodiscard]] Nearest lowest(double s, double lo, double hi) const;
   [[nodiscard]] SweptEnd close_in(double a, Nearest at_a, double b, Nearest at_b) const;
@@ -60,6 +69,7 @@ class ConcaveSweep {
   const Ray& ray_;
   double sample_ = 0.0;  // mm of motion
   int steps_ = 1;
+  mutable std::size_t looks_ = 0;
 };
 
 }  // namespace frustum::cutter

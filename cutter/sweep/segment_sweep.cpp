@@ -199,8 +199,7 @@ class HighestEnd {
   // How fast the end of the chord moves there, counted upwards: the envelope condition where 0.
   [[nodiscard]] double slope_of(const Touched& at) const {
     const Vec3 point = ray_.at(at.plane.direction * at.plane.value);
-    return at.plane.normal_across(at.pose.axis).dot(motion_.velocity(point, at.t)) /
-           at.plane.along;
+    return at.plane.normal_across(at.pose.axis).dot(motion_.velocity(point, at.t)) / at.plane.along;
   }
 
   // Where the end of the chord is highest between two moments, where it rises at the one and falls
@@ -276,8 +275,8 @@ class HighestEnd {
   [[nodiscard]] static double share_above(double height, double rise, double bend) {
     if (!(height >= 0.0)) return 0.0;
     const double root2 = rise * rise - 4.0 * bend * height;
-    if (height + rise + bend >= 0.0 && (bend <= 0.0 || rise >= 0.0 || -rise >= 2.0 * bend ||
-                                        root2 <= 0.0)) {
+    if (height + rise + bend >= 0.0 &&
+        (bend <= 0.0 || rise >= 0.0 || -rise >= 2.0 * bend || root2 <= 0.0)) {
       return 1.0;
     }
     // The first of the roots ahead.
@@ -294,7 +293,8 @@ class HighestEnd {
     const Vec3 by_axis = plane.lateral * w.cross(m) + plane.axial * m;
     const double turned2 = turn.squaredNorm();
     constexpr double kFarTurned = 0.06;  // a sample and the next are nearer
-    if (turned2 > kFarTurned * kFarTurned || !(plane.along * plane.along > turned2)) return 0.0;
+    if (turned2 > kFarTurned * kFarTurned || !(plane.along * plane.along > 1.21 * turned2))
+      return 0.0;
     // Where the axis is on its great circle, a share u of the way: u (1 - u) turn^2 / 2 outside of
     // the chord, within turn^4 / 40, and less than turn^3 / 100 beside it. (Turn and chord: the
     // difference is in these numbers.)

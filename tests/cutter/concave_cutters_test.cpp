@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "cutter/search/swept_cutter.hpp"
+#include "cutter/sweep/concave_sweep.hpp"
 #include "tests/cutter/cutter_kinds.hpp"
 #include "tests/cutter/random_paths.hpp"
 
@@ -169,6 +170,58 @@ TEST(HollowCutterLaws, LevelLandsAreNotCoveredByRounding) {
   const Vec3 along = at.axis.cross(Vec3(0.6, 0.8, 0.1)).normalized();
   const Ray ray{at.tip + 0.3 * at.axis.cross(along) - 50.0 * along, along};
   EXPECT_TRUE(swept->along(ray, {0.0, 100.0}).empty());
+}
+
+Cutter with_level_land() {
+  return *Cutter::make({.type = CutterType::bull,
+                        .diameter = {12.0},
+                        .length = {80.0},
+                        .flute_length = {30.0},
+                        .corner_radius = {0.8},
+                        .end_angle = {2.0 * kRadPerDegree},
+                        .run_out = {0.5}});
+}
+
+// The land slides along the ray for 50 mm: by steps as long as it is away from the ray, each of
+// which asks all moments, that were some 10^9 looks and half a minute.
+TEST(HollowCutterLaws, LongLevelSegmentsLeaveARayInTheEndPlaneAlone) {
+  const Cutter tool = with_level_land();
+  const Vec3 axis = Vec3(0.1, 0.2, 1.0).normalized();
+  const Vec3 feed = axis.cross(Vec3(0.3, 0.7, 0.05)).normalized();
+  const Vec3 tip(0.123, 0.456, 0.789);
+  const SegmentMotion motion({tip, axis}, {tip + 50.0 * feed, axis}, tool.body().reach());
+  for (const double share : {0.0, 0.37, 1.0}) {
+    for (const double beside : {0.3, 5.0}) {
+      const Vec3 along = axis.cross(Vec3(0.6, 0.8, 0.1)).normalized();
+      const Ray ray{tip + share * 50.0 * feed + beside * axis.cross(along) - 50.0 * along, along};
+      const cutter::ConcaveSweep sweep(tool.body(), motion, ray);
+      std::vector<cutter::SegmentInterval> found;
+      sweep.walk(0.0, 100.0, found);
+      EXPECT_TRUE(found.empty()) << share << ' ' << beside;
+      EXPECT_LT(sweep.looks(), 200'000U) << share << ' ' << beside;
+    }
+  }
+}
+
+// A ray that a tilting tool covers by a few micrometres, all along: what one pose covers is passed
+// over at once.
+TEST(HollowCutterLaws, ShallowCutsAlongARayAreWalkedInFewSteps) {
+  const Cutter tool = with_level_land();
+  const Vec3 axis = Vec3(0.1, 0.2, 1.0).normalized();
+  const Vec3 turned = (axis + 0.02 * Vec3(0.4, -0.3, 0.1)).normalized();
+  const Vec3 to = Vec3(0.7, -0.3, 0.05) - Vec3(0.7, -0.3, 0.05).dot(axis) * axis;
+  const Vec3 tip(0.123, 0.456, 0.789);
+  const ToolPath path = path_through({{tip, axis}, {tip + 50.0 * to.normalized(), turned}});
+  const SegmentMotion motion(path, path.segments[0], tool.body().reach());
+  const Vec3 along = axis.cross(Vec3(0.6, 0.8, 0.1)).normalized();
+  const Ray ray{tip + 5.0 * axis.cross(along) - 50.0 * along, along};
+  const cutter::ConcaveSweep sweep(tool.body(), motion, ray);
+  std::vector<cutter::SegmentInterval> found;
+  sweep.walk(46.5, 50.0, found);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].lo.s, 46.5);
+  EXPECT_EQ(found[0].hi.s, 50.0);
+  EXPECT_LT(sweep.looks(), 2'000'000U);
 }
 
 }  // namespace
