@@ -12,6 +12,111 @@
 namespace frustum::cutter {
 namespace {
 
+// Parts of a cutter that meet touch within this (mm): rounding of their ends.
+constexpr double kJoined = 1e-11;
+
+// Everything within the span, where the body has concave sections: what these cover is found from
+// what is covered already.
+class WholeSweptInterval {
+ public:
+  // `swept` is what other tools cover: their ends have no planes here.
+  WholeSweptInterval(const RaySpan& span, const EndPlanes& planes,
+                     std::span<const SweptInterval> swept)
+      : span_(span), planes_(planes) {
+    for (const SweptInterval& c : swept)
+      swept_.push_back({c, SeparatingPlane(), SeparatingPlane()});
+  }
+
+  [[nodiscard]] std::vector<SweptInterval> swept() const {
+    std::vector<SweptInterval> all;
+    for (const BoundedInterval& c : swept_) all.push_back(c.interval);
+    return all;
+  }
+
+  [[nodiscard]] const RaySpan& span() const { return span_; }
+  [[nodiscard]] static bool wants_lo(double) { return true; }
+  [[nodiscard]] static double promise(const GroupReach& reach) { return reach.hi - reach.lo; }
+  [[nodiscard]] int change() const { return change_; }
+
+  [[nodiscard]] bool wants(std::uint32_t, const GroupReach& reach) const {
+    const double lo = std::max(reach.lo, span_.lo);
+    const double hi = std::min(reach.hi, span_.hi);
+    if (!(lo <= hi)) return false;
+    return std::ranges::none_of(swept_, [&](const BoundedInterval& c) {
+      return c.interval.lo.s <= lo + reach.lo_slack && hi - reach.hi_slack <= c.interval.hi.s;
+    });
+  }
+
+  [[nodiscard]] GroupLimit limit(const PoseGroup& group) {
+    return {.holds = between(
+                [&](const SeparatingPlane& end) { return end.overreach(group).most <= 0.0; })};
+  }
+  [[nodiscard]] bool wants_piece(std::uint32_t group, double lo, double hi) const {
+    return wants(group, {lo, hi});
+  }
+  [[nodiscard]] bool holds(std::uint32_t, const SegmentMotion& motion) {
+    return between([&](const SeparatingPlane& end) { return end.holds(motion); });
+  }
+
+  [[nodiscard]] std::span<const Chord> known() {
+    known_.clear();
+    for (const BoundedInterval& c : swept_) known_.push_back({c.interval.lo.s, c.interval.hi.s});
+    return known_;
+  }
+
+  [[nodiscard]] std::span<const Chord> floors() { return known(); }
+  void take_solved(const SweptInterval& next) { take(next); }
+  void take(const SweptInterval& next) {
+    // The intervals that touch it become one with it; a tie keeps the older end.
+    ++change_;
+    auto first = swept_.begin();
+    while (first != swept_.end() && first->interval.hi.s < next.lo.s - kJoined) ++first;
+    auto last = first;
+    BoundedInterval joined{next, std::nullopt, std::nullopt};
+    for (; last != swept_.end() && last->interval.lo.s <= next.hi.s + kJoined; ++last) {
+      if (last->interval.lo.s <= joined.interval.lo.s) {
+        joined.interval.lo = last->interval.lo;
+        joined.lo = last->lo;
+      }
+      if (last->interval.hi.s >= joined.interval.hi.s) {
+        joined.interval.hi = last->interval.hi;
+        joined.hi = last->hi;
+      }
+    }
+    if (first == last) {
+      swept_.insert(first, joined);
+      return;
+    }
+    *first = joined;
+    swept_.erase(first + 1, last);
+  }
+
+ private:
+  struct BoundedInterval {
+    SweptInterval interval{};
+    std::optional<SeparatingPlane> lo{}, hi{};  // made when first asked for
+  };
+  // Whether it is between the ends of one interval, both of which hold it back.
+  template <class HeldBy>
+  [[nodiscard]] bool between(const HeldBy& held_by) {
+    return std::ranges::any_of(swept_, [&](BoundedInterval& c) {
+      if (c.interval.hi.s < span_.hi) {
+        if (!c.hi) c.hi = planes_.at(c.interval.hi, true);
+        if (!held_by(*c.hi)) return false;
+      }
+      if (c.interval.lo.s <= span_.lo) return true;
+      if (!c.lo) c.lo = planes_.at(c.interval.lo, false);
+      return held_by(*c.lo);
+    });
+  }
+
+  RaySpan span_;
+  const EndPlanes& planes_;
+  std::vector<BoundedInterval> swept_{};
+  std::vector<Chord> known_{};
+  int change_ = 0;
+};
+
 // Only what continues the swept interval from the front.
 class Front {
  public:
@@ -120,6 +225,12 @@ class Front {
 void extend_swept_interval(const RayQuestion& question, const ToolSweep& sweep,
                            std::vector<SweptInterval>& swept) {
   const EndPlanes planes(question, *sweep.body);
+  if (!sweep.body->concave().empty()) {
+    WholeSweptInterval goal(question.span, planes, swept);
+    GroupSearch(question, sweep, goal).run(0);
+    swept = goal.swept();
+    return;
+  }
   WholeSweep goal(question, sweep, planes, swept);
   GroupSearch search(question, sweep, goal);
   search.run(0);

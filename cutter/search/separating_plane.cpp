@@ -7,6 +7,28 @@
 
 namespace frustum::cutter {
 
+namespace {
+
+// The rim of a flat or conical face that the point is on, if it is.
+std::optional<Zone> rim_at(const Profile& section, const ToolPose& pose, const Vec3& point) {
+  constexpr double kOnRim = 1e-6;  // mm: an end is within 1e-9 along the ray, more along the face
+  const Vec3 m = point - pose.tip;
+  const double z = m.dot(pose.axis);
+  const double rho = (m - z * pose.axis).norm();
+  for (const Zone& zone : section.zones()) {
+    if (zone.kind != ZoneKind::cone) continue;
+    for (const double height : {zone.z_lo, zone.z_hi}) {
+      const double radius = zone.radius + zone.slope * (height - zone.z_lo);
+      if (radius > kOnRim && std::abs(z - height) < kOnRim && std::abs(rho - radius) < kOnRim) {
+        return torus_zone(radius, 0.0, height, height, height);
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
 SeparatingPlane::SeparatingPlane(const Body& body, const Ray& ray, const EndContact& end,
                                  bool leaving)
     : end_(ray.at(end.s)), beyond_(leaving ? ray.direction : Vec3(-ray.direction)) {
@@ -16,9 +38,15 @@ SeparatingPlane::SeparatingPlane(const Body& body, const Ray& ray, const EndCont
   if (end.face >= 0) {
     const Zone& zone = section.zones()[static_cast<std::size_t>(end.face)];
     if (zone.kind != ZoneKind::cone) {
-      round_ = &zone;
+      is_round_ = true;
+      round_ = zone;
       return;
     }
+  }
+  if (const auto rim = rim_at(section, end.pose, end_)) {
+    is_round_ = true;
+    round_ = *rim;
+    return;
   }
   const Facing facing = section.facing(end.face, end.pose, end_, beyond_);
   axial_ = facing.axial;
@@ -35,10 +63,10 @@ double SeparatingPlane::support(double lateral, double axial) const {
 
 // A plane that touches a convex body where the round face is has all of the body on one side.
 double SeparatingPlane::support_of_round(double lateral, double axial) const {
-  const double touched_at = round_->centre + round_->radius * axial;
-  const bool on_face = round_->z_lo <= touched_at && touched_at <= round_->z_hi && lateral > 0.0;
+  const double touched_at = round_.centre + round_.radius * axial;
+  const bool on_face = round_.z_lo <= touched_at && touched_at <= round_.z_hi && lateral > 0.0;
   if (!on_face || !body_->is_convex()) return support(lateral, axial);
-  return lateral * round_->major + axial * round_->centre + round_->radius;
+  return lateral * round_.major + axial * round_.centre + round_.radius;
 }
 
 std::optional<SupportingPlane> SeparatingPlane::touching(const ToolPose& pose) const {
@@ -47,10 +75,10 @@ std::optional<SupportingPlane> SeparatingPlane::touching(const ToolPose& pose) c
   const Vec3 across = m - z * pose.axis;
   const double rho = across.norm();
   SupportingPlane plane{axial_, lateral_, offset_};
-  if (round_ != nullptr) {
+  if (is_round_) {
     const double beside =
-        round_->major < 0.0 ? rho - round_->major : std::max(0.0, rho - round_->major);
-    const double above = z - round_->centre;
+        round_.major < 0.0 ? rho - round_.major : std::max(0.0, rho - round_.major);
+    const double above = z - round_.centre;
     const double length = std::sqrt(beside * beside + above * above);
     if (!(length > 0.0)) return std::nullopt;
     plane.lateral = beside / length;

@@ -64,7 +64,8 @@ class SeparatingPlane {
   // Latitude of the plane: fixed on flat, cylindrical and conical faces, on round ones towards the
   // end.
   double axial_ = 0.0, lateral_ = 0.0, offset_ = 0.0;
-  const Zone* round_ = nullptr;
+  bool is_round_ = false;
+  Zone round_{};  // a rim is a torus of no minor radius
 };
 
 }  // namespace frustum::cutter
