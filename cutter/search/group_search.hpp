@@ -49,6 +49,7 @@ using PairLimit = std::array<GroupLimit, 2>;
 //   void take_solved(interval)  what a segment covers: its own ends
 //   span<const Chord> known() is covered anyway
 //   span<const Chord> floors() ends of segments inside these need not be exact
+//   kSolvesWhole              a solution finds all of a segment's ends, whatever is covered: costly
 //   bool wants_piece(group, lo, hi)  could a piece of ray still add anything?
 //   int change()              another number whenever more is covered
 template <class Goal>
@@ -253,6 +254,9 @@ class GroupSearch {
 
   void solve(std::uint32_t group, std::uint32_t segment) {
     const SegmentMotion motion = motion_of(segment);
+    if constexpr (Goal::kSolvesWhole) {
+      if (is_away(group, motion)) return;
+    }
     solve_parts(segment, motion);
     const auto sections = sweep_.body->sections();
     for (auto i = static_cast<std::uint32_t>(parts_.size()); i < sections.size(); ++i) {
@@ -261,6 +265,20 @@ class GroupSearch {
       join_overlapping(found_);
       for (const SegmentInterval& f : found_) take_of_hull(group, motion, swept_of(segment, i, f));
     }
+  }
+
+  // Whether the cutter where the motion begins, grown by all of its way, covers nothing wanted.
+  [[nodiscard]] bool is_away(std::uint32_t group, const SegmentMotion& motion) {
+    constexpr double kRounding = 1e-9;  // mm
+    GroupReach reach = kNoReach;
+    for (const Profile& section : sweep_.body->sections()) {
+      const auto grown = section.chord(motion.at(0.0), question_.ray, motion.travel() + kRounding);
+      if (!grown) continue;
+      reach.lo = std::min(reach.lo, grown->lo);
+      reach.hi = std::max(reach.hi, grown->hi);
+    }
+    reach.lo_slack = reach.hi_slack = 0.0;
+    return !(reach.lo <= reach.hi) || !goal_.wants(group, goal_.counted(reach));
   }
 
   void solve_parts(std::uint32_t segment, const SegmentMotion& motion) {

@@ -344,16 +344,20 @@ class TileSearch {
     for (std::size_t k = first; k < last; ++k) sift(tile, lists_[k]);
     covers_.clear();
   }
-  void sift(const Tile& tile, std::uint32_t index) {
+  // False if nothing of it was left aside: then it stays whole.
+  bool sift(const Tile& tile, std::uint32_t index) {
     const PoseGroup group = sweep_.tree.group(index);
     const Verdict verdict = judge(tile, group);
-    if (verdict == Verdict::aside) return;
+    if (verdict == Verdict::aside) return true;
+    const std::size_t before = lists_.size();
     if (verdict == Verdict::open && group.count == 0 && group.shift > tile.size) {
-      sift(tile, group.children);
-      sift(tile, group.children + 1);
-      return;
+      const bool lower = sift(tile, group.children);
+      const bool upper = sift(tile, group.children + 1);
+      if (lower || upper) return true;
+      lists_.resize(before);
     }
     lists_.push_back(index);
+    return false;
   }
 
   const TileQuestion& question_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "cutter/sweep/segment_sweep.hpp"
 
@@ -10,6 +11,45 @@ namespace {
 
 // Nearer to the axis than this (mm) there is no meridian to speak of.
 constexpr double kOnAxis = 1e-9;
+
+// Axial part of the outward normal of a zone at one of its ends.
+double axial_at(const Zone& zone, double height) {
+  if (zone.kind == ZoneKind::cone) return -zone.slope / std::hypot(1.0, zone.slope);
+  return std::clamp((height - zone.centre) / zone.radius, -1.0, 1.0);
+}
+
+// An edge all round the section, and between which normals planes touch it there.
+struct Rim {
+  Zone zone{};
+  double least_axial = -1.0, most_axial = 1.0;
+};
+
+// The rim of a flat or conical face that the point is on, if it is.
+std::optional<Rim> rim_at(const Profile& section, const ToolPose& pose, const Vec3& point) {
+  constexpr double kOnRim = 1e-6;  // mm: an end is within 1e-9 along the ray, more along the face
+  const Vec3 m = point - pose.tip;
+  const double z = m.dot(pose.axis);
+  const double rho = (m - z * pose.axis).norm();
+  const auto zones = section.zones();
+  for (std::size_t i = 0; i < zones.size(); ++i) {
+    if (zones[i].kind != ZoneKind::cone) continue;
+    for (const bool upper : {false, true}) {
+      const double height = upper ? zones[i].z_hi : zones[i].z_lo;
+      const double radius = zones[i].radius + zones[i].slope * (height - zones[i].z_lo);
+      const bool is_on = std::abs(z - height) < kOnRim && std::abs(rho - radius) < kOnRim;
+      if (!is_on || radius <= kOnRim) continue;
+      const double own = axial_at(zones[i], height);
+      Rim rim{torus_zone(radius, 0.0, height, height, height), own, own};
+      if (upper) {
+        rim.most_axial = i + 1 < zones.size() ? axial_at(zones[i + 1], height) : 1.0;
+      } else {
+        rim.least_axial = i > 0 ? axial_at(zones[i - 1], height) : -1.0;
+      }
+      return rim;
+    }
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -22,11 +62,19 @@ SeparatingPlane::SeparatingPlane(const Body& body, const Ray& ray, const EndCont
   if (end.face >= 0) {
     const Zone& zone = section.zones()[static_cast<std::size_t>(end.face)];
     if (zone.kind != ZoneKind::cone) {
-      round_ = &zone;
+      is_round_ = true;
+      round_ = zone;
       least_axial_ = std::max(-1.0, (zone.z_lo - zone.centre) / zone.radius);
       most_axial_ = std::min(1.0, (zone.z_hi - zone.centre) / zone.radius);
       return;
     }
+  }
+  if (const auto rim = rim_at(section, end.pose, end_)) {
+    is_round_ = true;
+    round_ = rim->zone;
+    least_axial_ = rim->least_axial;
+    most_axial_ = rim->most_axial;
+    return;
   }
   const Facing facing = section.facing(end.face, end.pose, end_, beyond_);
   axial_ = facing.axial;
@@ -50,15 +98,15 @@ SeparatingPlane::Planes SeparatingPlane::touching(const BothVec& m, const BothVe
   Both offset = both(offset_);
   at.axial = both(axial_);
   at.lateral = both(lateral_);
-  if (round_ != nullptr) {
+  if (is_round_) {
     const Both beside =
-        round_->major < 0.0 ? rho - round_->major : larger(rho - round_->major, both(0.0));
-    const Both above = z - round_->centre;
+        round_.major < 0.0 ? rho - round_.major : larger(rho - round_.major, both(0.0));
+    const Both above = z - round_.centre;
     const Both length = square_root(beside * beside + above * above);
     const Both wanted = above / length;
     at.axial = larger(smaller(wanted, both(most_axial_)), both(least_axial_));
     at.lateral = square_root(larger(1.0 - at.axial * at.axial, both(0.0)));
-    offset = at.lateral * round_->major + at.axial * round_->centre + round_->radius;
+    offset = at.lateral * round_.major + at.axial * round_.centre + round_.radius;
     // A plane that touches a convex body where the round face is has all of the body on one side.
     if (!body_->is_convex()) {
       offset = Both{support(at.lateral[0], at.axial[0]), support(at.lateral[1], at.axial[1])};
@@ -72,12 +120,12 @@ SeparatingPlane::Planes SeparatingPlane::touching(const BothVec& m, const BothVe
 BothVec SeparatingPlane::way_to_end(const BothVec& m, const BothVec& axis) const {
   const Both z = m.dot(axis);
   const BothVec across = m - z * axis;
-  if (round_ == nullptr) return across;
-  const BothVec up = (z - round_->centre) * axis;
-  if (round_->major == 0.0) return across + up;
+  if (!is_round_) return across;
+  const BothVec up = (z - round_.centre) * axis;
+  if (round_.major == 0.0) return across + up;
   const Both rho = larger(square_root(across.dot(across)), both(kOnAxis));
   const Both beside =
-      round_->major < 0.0 ? rho - round_->major : larger(rho - round_->major, both(0.0));
+      round_.major < 0.0 ? rho - round_.major : larger(rho - round_.major, both(0.0));
   return (beside / rho) * across + up;
 }
 
@@ -85,11 +133,11 @@ Both SeparatingPlane::height_about(const BothVec& m, const BothVec& axis) const 
   const Both z = m.dot(axis);
   const BothVec across = m - z * axis;
   const Both rho = square_root(across.dot(across));
-  if (round_ == nullptr) return lateral_ * rho + axial_ * z - offset_;
+  if (!is_round_) return lateral_ * rho + axial_ * z - offset_;
   const Both beside =
-      round_->major < 0.0 ? rho - round_->major : larger(rho - round_->major, both(0.0));
-  const Both above = z - round_->centre;
-  return square_root(beside * beside + above * above) - round_->radius;
+      round_.major < 0.0 ? rho - round_.major : larger(rho - round_.major, both(0.0));
+  const Both above = z - round_.centre;
+  return square_root(beside * beside + above * above) - round_.radius;
 }
 
 Overreach SeparatingPlane::overreach(const GroupPair& groups, double slack) const {
@@ -104,7 +152,7 @@ Overreach SeparatingPlane::overreach(const GroupPair& groups, double slack) cons
   const Both in_the_middle = height_about(m, axis);
   // From the middle to the place in the box that is nearest to touching the end there.
   Both c_1 = both(0.0), c_2 = both(0.0), c_3 = both(0.0), went = both(0.0);
-  if (round_ != nullptr || lateral_ > 0.0) {
+  if (is_round_ || lateral_ > 0.0) {
     const BothVec way = way_to_end(m, axis);
     const auto within = [](Both x, Both half) { return larger(smaller(x, half), -half); };
     c_1 = within(way.dot(one), half_1);

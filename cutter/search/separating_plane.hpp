@@ -85,7 +85,8 @@ class SeparatingPlane {
   // Latitude of the plane: fixed on flat, cylindrical and conical faces, on round ones towards the
   // end, but on the face.
   double axial_ = 0.0, lateral_ = 0.0, offset_ = 0.0;
-  const Zone* round_ = nullptr;
+  bool is_round_ = false;
+  Zone round_{};  // a rim is a torus of no minor radius
   double least_axial_ = -1.0, most_axial_ = 1.0;
 };
 

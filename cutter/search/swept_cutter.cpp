@@ -75,6 +75,45 @@ IntervalSet intervals_of(std::span<const SweptInterval> cover, const RaySpan& sp
   return IntervalSet(std::move(all)).intersected(IntervalSet({{span.lo, span.hi}}));
 }
 
+// Groups of a tool that may cover anything in a ball.
+class NearGroups {
+ public:
+  NearGroups(const ToolPath& path, const ToolSweep& sweep, const SweptNear& ball,
+             std::uint32_t first_excluded, std::vector<std::uint32_t>& found)
+      : path_(path), sweep_(sweep), ball_(ball), first_excluded_(first_excluded), found_(found) {}
+
+  // False if nothing of it was left aside: then it stays whole.
+  bool add(std::uint32_t index) {
+    const PoseGroup group = sweep_.tree.group(index);
+    if (is_away(group)) return true;
+    const std::size_t before = found_.size();
+    if (group.count == 0 && group.shift > 0.5 * ball_.radius) {
+      const bool lower = add(group.children);
+      const bool upper = add(group.children + 1);
+      if (lower || upper) return true;
+      found_.resize(before);
+    }
+    found_.push_back(index);
+    return false;
+  }
+
+ private:
+  [[nodiscard]] bool is_away(const PoseGroup& group) const {
+    if (group.earliest >= first_excluded_) return true;
+    const Vec3 beyond = (group.box.min - ball_.centre)
+                            .cwiseMax(ball_.centre - group.box.max)
+                            .cwiseMax(Vec3::Zero());
+    return beyond.squaredNorm() > ball_.radius * ball_.radius ||
+           sweep_.body->distance(group.representative(path_), ball_.centre) - group.shift > ball_.radius;
+  }
+
+  const ToolPath& path_;
+  const ToolSweep& sweep_;
+  const SweptNear& ball_;
+  std::uint32_t first_excluded_;
+  std::vector<std::uint32_t>& found_;
+};
+
 double accuracy_of(const Body& body) {
   const double convex = 2.0 * kSearchTolerance + kMissedDepth;
   return body.concave().empty() ? convex : convex + concave_accuracy(body);
@@ -196,32 +235,14 @@ SweptNear SweptCutter::near(const Vec3& centre, double radius, std::uint32_t fir
                             const SweptNear* within) const {
   SweptNear near{centre, radius, {}};
   near.groups.resize(sweeps_->size());
-  std::vector<std::uint32_t> open;
+  constexpr std::uint32_t kRoot = 0;
   for (std::size_t tool = 0; tool < sweeps_->size(); ++tool) {
     const ToolSweep& sweep = (*sweeps_)[tool];
-    open.clear();
-    if (within != nullptr) {
-      open = within->groups[tool];
-    } else if (!sweep.tree.empty()) {
-      open.push_back(0);
-    }
-    while (!open.empty()) {
-      const std::uint32_t index = open.back();
-      open.pop_back();
-      const PoseGroup group = sweep.tree.group(index);
-      if (group.earliest >= first_excluded) continue;
-      const Vec3 beyond =
-          (group.box.min - centre).cwiseMax(centre - group.box.max).cwiseMax(Vec3::Zero());
-      if (beyond.squaredNorm() > radius * radius) continue;
-      if (sweep.body->distance(group.representative(path_), centre) - group.shift > radius)
-        continue;
-      if (group.count == 0 && group.shift > radius) {
-        open.push_back(group.children + 1);
-        open.push_back(group.children);
-      } else {
-        near.groups[tool].push_back(index);
-      }
-    }
+    if (sweep.tree.empty()) continue;
+    NearGroups found(path_, sweep, near, first_excluded, near.groups[tool]);
+    const auto groups = within != nullptr ? std::span<const std::uint32_t>(within->groups[tool])
+                                          : std::span(&kRoot, 1);
+    for (const std::uint32_t group : groups) found.add(group);
   }
   return near;
 }

@@ -26,8 +26,10 @@ constexpr double kLeaveCell = 0.8;
 // Vertices closer than this, in pitches, would make needles of the triangles between them.
 constexpr double kTooClose = 0.05;
 
-// Cells of a block, in each direction, whose rays share what may have cut there.
+// Cells of a block, in each direction, whose rays share what may have cut there; first of a large
+// one, then of a small one in it.
 constexpr int kBlock = 8;
+constexpr int kSmallBlock = 2;
 // From a cell to where the rays of its vertex end, in pitches.
 constexpr double kAround = kLeaveCell + 0.5;
 
@@ -36,24 +38,32 @@ class Neighbourhood {
  public:
   Neighbourhood(SolidView solid, const DexelGrid& grid) : solid_(solid), grid_(grid) {}
 
-  // Around the block that begins at the first two and holds the third; null: the solid does not
-  // know.
-  [[nodiscard]] const cutter::SweptNear* of(const std::array<int, 3>& place) {
-    const int floor = place[2] - ((place[2] % kBlock) + kBlock) % kBlock;
-    if (auto found = known_.find(floor); found != known_.end()) {
-      return found->second ? &*found->second : nullptr;
-    }
-    const double half = 0.5 * kBlock;
-    const Vec3 centre = grid_.node(place[0], place[1], floor) + Vec3::Constant(half * grid_.pitch);
-    const double radius = std::sqrt(3.0) * (half + kAround) * grid_.pitch;
-    const auto& added = known_.emplace(floor, solid_.near(centre, radius)).first->second;
-    return added ? &*added : nullptr;
+  // Around a cell; null: the solid does not know.
+  [[nodiscard]] const cutter::SweptNear* of(const std::array<int, 3>& cell) {
+    return around(cell, kSmallBlock, around(cell, kBlock, nullptr));
   }
 
  private:
+  using Known = std::map<std::array<int, 4>, std::optional<cutter::SweptNear>>;
+
+  // The block of this size that holds the cell.
+  const cutter::SweptNear* around(const std::array<int, 3>& cell, int size,
+                                  const cutter::SweptNear* within) {
+    std::array<int, 4> key{0, 0, 0, size};
+    for (std::size_t d = 0; d < 3; ++d) key[d] = cell[d] - ((cell[d] % size) + size) % size;
+    auto found = known_.find(key);
+    if (found == known_.end()) {
+      const double half = 0.5 * size;
+      const Vec3 centre = grid_.node(key[0], key[1], key[2]) + Vec3::Constant(half * grid_.pitch);
+      const double radius = std::sqrt(3.0) * (half + kAround) * grid_.pitch;
+      found = known_.emplace(key, solid_.near(centre, radius, within)).first;
+    }
+    return found->second ? &*found->second : nullptr;
+  }
+
   SolidView solid_;
   const DexelGrid& grid_;
-  std::map<int, std::optional<cutter::SweptNear>> known_{};  // by the lowest level of the block
+  Known known_{};  // by lowest cell and size
 };
 
 class VertexPlacer {
@@ -77,7 +87,7 @@ class VertexPlacer {
         for (int i = i0; i < std::min(i0 + kBlock, across_x); ++i) {
           for (const Cell& cell : cells_.column(i, j)) {
             const std::array<int, 3> place{i, j, cell.level};
-            const cutter::SweptNear* near = around.of({i0, j0, cell.level});
+            const cutter::SweptNear* near = around.of(place);
             for (std::uint32_t piece = 0; piece < cell.piece_count; ++piece) {
               place_piece(place, cell, piece, kLeaveCell, near);
               if (cell_of(mesh_.vertices[cell.first_vertex + piece]) != place) {
