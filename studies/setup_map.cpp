@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/constants.hpp"
 #include "core/linear_algebra.hpp"
 #include "studies/linear_engine.hpp"
 
@@ -30,17 +29,6 @@ Eigen::MatrixXd own_second_moments(const FactorSet& set) {
 }
 
 double range_of(const Eigen::VectorXd& x) { return x.maxCoeff() - x.minCoeff(); }
-
-// The largest range of a cos psi + b sin psi over psi: 180 phases are right to 4e-4 of it.
-double largest_range(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  constexpr int kPhases = 180;
-  double largest = 0.0;
-  for (int k = 0; k < kPhases; ++k) {
-    const double psi = 0.5 * kTurn * k / kPhases;
-    largest = std::max(largest, range_of(std::cos(psi) * a + std::sin(psi) * b));
-  }
-  return largest;
-}
 
 Result<MapRow> row_of(const kinematics::Machine& machine,
                       std::span<const kinematics::ErrorEntry> errors, const ConeRing& ring,
@@ -90,7 +78,8 @@ std::vector<double> forms_at_limits(const FactorSet& set, const Eigen::MatrixXd&
         form += range_of(a);
       } else if (set.columns()[j].wave == Wave::cosine) {
         // Its sine is the next column.
-        form += largest_range(a, largest[j + 1] * gains.col(static_cast<Eigen::Index>(j + 1)));
+        const Eigen::VectorXd b = largest[j + 1] * gains.col(static_cast<Eigen::Index>(j + 1));
+        form += std::max(range_of(a), range_of(b));
       }
     }
     forms.push_back(form);

@@ -4,7 +4,8 @@
 //            root mean square of the centred deviation over points and draws, exact from the gains.
 //            Directions: participation ratio (sum l)^2 / sum l^2 of the eigenvalues of the points'
 //            covariance: in how many independent ways errors shape the ring. Shown: errors that
-//            make a form of 1 um or more at their limit, with the phase that shows most
+//            make a form of 1 um or more at their limit, waves with a phase of 0 or 90 deg,
+//            whichever shows more
 // Units    : mm, rad; results um
 // Shape    : a row a set-up
 // Errors   : a set-up that the machine cannot reach; cone angles not above the inclination
@@ -34,8 +35,8 @@ struct MapOptions {
                                                     std::span<const ConeRing> rings,
                                                     const MapOptions& options);
 
-// The largest form (um) that each factor makes alone at its limit, by the centred gains (um per mm
-// or rad).
+// The form (um) that each factor makes alone at its limit, as the map counts it, by the centred
+// gains (um per mm or rad).
 [[nodiscard]] std::vector<double> forms_at_limits(const FactorSet& set,
                                                   const Eigen::MatrixXd& gains);
 
