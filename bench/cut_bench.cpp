@@ -1,11 +1,14 @@
 // Material removal: how soon a workpiece is ready, probes by the second, meshes, and how a probe's
 // time grows with the program. Goals (two cores): cone ready in 0.1 s, 200,000 exact probes by the
 // second and core, 2,000,000 continued ones, its mesh at 0.25 mm in 2 s; a million freeform blocks
-// ready in 10 s and 4 GiB, probes no worse than log N.
+// ready in 10 s and 4 GiB, probes no worse than log N; path and search of a million five-axis
+// blocks in 250 MiB; a ray that slides along a hollow cutter in 50 ms.
 #include <benchmark/benchmark.h>
+#include <malloc.h>
 
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 #include "bench/cut_scenes.hpp"
 #include "cutter/search/contact_continuation.hpp"
@@ -98,6 +101,44 @@ void freeform_ready(benchmark::State& state) {
   state.counters["blocks"] = static_cast<double>(path.segments.size());
 }
 BENCHMARK(freeform_ready)->Arg(1'000'000)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(1);
+
+// What path and search keep of a long program, goal 250 MiB: the path is made for the sweep alone.
+void five_axis_memory(benchmark::State& state) {
+  for (auto _ : state) {
+    const double before = resident();
+    ToolPath path = FiveAxisScene::path(static_cast<int>(state.range(0)));
+    path.poses.shrink_to_fit();
+    path.segments.shrink_to_fit();
+    path.blocks.shrink_to_fit();
+    auto swept = cutter::SweptCutter::sweep(std::move(path),
+                                            {{1, end_mill(cutter::CutterType::ball, 10.0, 40.0)}});
+    benchmark::DoNotOptimize(swept);
+    malloc_trim(0);
+    state.counters["MiB"] = resident() - before;
+  }
+}
+BENCHMARK(five_axis_memory)->Arg(1'000'000)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(1);
+
+// A hollowed end with a level land, 50 mm in its own plane, and a ray in that plane, goal 50 ms.
+void ray_in_the_end_plane_of_a_hollow_cutter(benchmark::State& state) {
+  const Vec3 axis = Vec3(0.1, 0.2, 1.0).normalized();
+  const Vec3 feed = axis.cross(Vec3(0.3, 0.7, 0.05)).normalized();
+  const Vec3 along = axis.cross(Vec3(0.6, 0.8, 0.1)).normalized();
+  ToolPath path;
+  add_pose(path, {Vec3::Zero(), axis});
+  add_pose(path, {50.0 * feed, axis});
+  const auto swept =
+      cutter::SweptCutter::sweep(path, {{1, *cutter::Cutter::make({.type = cutter::CutterType::bull,
+                                                                   .diameter = {12.0},
+                                                                   .length = {80.0},
+                                                                   .flute_length = {30.0},
+                                                                   .corner_radius = {0.8},
+                                                                   .end_angle = {2.0 * kRadPerDeg},
+                                                                   .run_out = {0.5}})}});
+  const Ray ray{0.3 * axis.cross(along) - 50.0 * along, along};
+  for (auto _ : state) benchmark::DoNotOptimize(swept->along(ray, {0.0, 100.0}));
+}
+BENCHMARK(ray_in_the_end_plane_of_a_hollow_cutter)->Unit(benchmark::kMillisecond);
 
 void freeform_probe(benchmark::State& state) {
   const stock::Workpiece part = FreeformScene::cut(static_cast<int>(state.range(0)));

@@ -65,6 +65,26 @@ struct ConeScene {
   }
 };
 
+// Rows of a wavy surface, the tool leaning as it goes: a long five-axis program.
+struct FiveAxisScene {
+  static constexpr double kSize = 100.0;
+
+  [[nodiscard]] static ToolPath path(int blocks) {
+    const int rows = static_cast<int>(std::lround(std::sqrt(static_cast<double>(blocks))));
+    ToolPath path;
+    for (int row = 0; row < rows; ++row) {
+      for (int i = 0; i <= rows; ++i) {
+        const double x = kSize * ((row % 2 == 0 ? i : rows - i) / static_cast<double>(rows) - 0.5);
+        const double y = kSize * ((row + 0.5) / rows - 0.5);
+        const Vec3 axis(0.3 * std::sin(x / 11.0), 0.2 * std::cos(y / 13.0), 1.0);
+        add_pose(path,
+                 {{x, y, 10.0 + 2.0 * std::sin(x / 8.0) * std::cos(y / 9.0)}, axis.normalized()});
+      }
+    }
+    return path;
+  }
+};
+
 // A wavy surface of 100 x 100 mm, ball milled in rows; as many points in a row as rows.
 struct FreeformScene {
   static constexpr double kSize = 100.0;
