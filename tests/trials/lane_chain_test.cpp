@@ -20,7 +20,7 @@ using kinematics::Machine;
 
 constexpr RandomKey kKey{.seed = 11};
 
-// Every error that the machine accepts, all amounts drawn; component errors with a slope and a wave.
+// Every error that the machine accepts, all drawn; component errors with a slope and a wave.
 std::vector<ErrorEntry> every_error_drawn(const Machine& machine, const std::string& size) {
   std::vector<ErrorEntry> entries;
   for (const kinematics::ErrorName& name : machine.error_names()) {
