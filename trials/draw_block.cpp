@@ -180,8 +180,8 @@ BallApproach DrawBlock::approach_of(const Lane& lane, std::size_t feature,
   const metrology::PlannedPoint& planned = common_.planned[feature][index];
   const metrology::ProbeSettings& probe = common_.piece.plan.probe;
   return {lane.workpiece_from_datum.point(planned.point),
-          metrology::unit(lane.workpiece_from_datum.direction(planned.normal)), 0.5 * probe.ball_diameter,
-          probe.clearance, probe.reach};
+          metrology::unit(lane.workpiece_from_datum.direction(planned.normal)),
+          0.5 * probe.ball_diameter, probe.clearance, probe.reach};
 }
 
 void DrawBlock::probe_point(std::size_t feature, std::size_t index, std::size_t lane_index,
@@ -282,8 +282,8 @@ void DrawBlock::fit(std::size_t feature, Lane& lane) {
     centres.push_back(by_approach ? Vec3(measured - radius * approach.outward.vec()) : measured);
     sections.push_back(planned.section);
   }
-  auto fitted =
-      metrology::fit_feature(plan.features[feature], centres, sections, by_approach ? 0.0 : radius);
+  auto fitted = metrology::fit_feature(plan.features[feature], centres, sections,
+                                       by_approach ? 0.0 : radius, metrology::FitStart::plan);
   if (!fitted) {
     lane.member->failure = fitted.error();
     lane.is_done = true;

@@ -24,16 +24,34 @@ int chords_of(const PosesOfPiece& p, double reach, double bound) {
   return static_cast<int>(std::clamp(std::ceil(std::sqrt(sagitta / (0.5 * bound))), 1.0, kMost));
 }
 
+// Where the middle machine's contact would be now, had its cutter carried it along.
+Vec3 carried(const LocalSurroundings& near) {
+  const ToolPose now = PoseParabola{near.own}.at(near.origin.tau);
+  const ToolPose& before = near.origin.pose;
+  const Vec3 m = near.origin.touched - before.tip, turn = now.axis - before.axis;
+  return near.origin.touched + now.tip - before.tip + m.dot(before.axis) * turn -
+         m.dot(turn) * before.axis;
+}
+
+// Pieces whose ends are farther than this from there (mm) cannot make it for any
+// drift of a machine within its laws: they are there to be seen to keep away, by micrometres, for
+// which coarse chords are good enough.
+constexpr double kAside = 0.03;
+constexpr double kCoarse = 5e-5;
+
 // The path, and whether its segments may be where a contact is: not the first and last piece of a
-// range, beyond which the path goes on.
+// range, beyond which the path goes on, nor one aside.
 struct LocalPath {
   ToolPath path{};
   std::vector<bool> is_inner{};
 };
 
-LocalPath path_of(const LocalSurroundings& near, int tool, double reach, double bound) {
+LocalPath path_of(const LocalSurroundings& near, int tool, const cutter::Body& body,
+                  double path_bound) {
   LocalPath local;
-  local.path.bound = bound;
+  local.path.bound = path_bound;
+  const Vec3 place = carried(near);
+  const auto is_aside = [&](const ToolPose& pose) { return body.distance(pose, place) > kAside; };
   kinematics::PathBlock block;
   block.tool = tool;
   std::size_t piece = 0;
@@ -43,13 +61,15 @@ LocalPath path_of(const LocalSurroundings& near, int tool, double reach, double 
     local.path.poses.push_back(near.pieces[piece][0]);
     for (std::uint32_t k = 0; k < length; ++k, ++piece) {
       const PoseParabola parabola{near.pieces[piece]};
-      const int chords = chords_of(near.pieces[piece], reach, bound);
+      const bool aside = is_aside(near.pieces[piece][0]) && is_aside(near.pieces[piece][2]);
+      const int chords = chords_of(near.pieces[piece], body.reach(),
+                                   aside ? std::max(kCoarse, path_bound) : path_bound);
       for (int i = 1; i <= chords; ++i) {
         local.path.segments.push_back(
             {static_cast<std::uint32_t>(local.path.poses.size() - 1), index});
         local.path.poses.push_back(i == chords ? near.pieces[piece][2]
                                                : parabola.at(static_cast<double>(i) / chords));
-        local.is_inner.push_back(k > 0 && k + 1 < length);
+        local.is_inner.push_back(!aside && k > 0 && k + 1 < length);
       }
     }
   }
@@ -78,22 +98,13 @@ class LocalProbe {
   mutable bool stays_inside_ = true;
 };
 
-// How far the contact has gone along the cutter that made it.
-double drift_of(const LocalSurroundings& near, const Vec3& touched) {
-  const ToolPose now = PoseParabola{near.own}.at(near.origin.tau);
-  const ToolPose& before = near.origin.pose;
-  const Vec3 m = near.origin.touched - before.tip, turn = now.axis - before.axis;
-  const Vec3 carried = now.tip - before.tip + m.dot(before.axis) * turn - m.dot(turn) * before.axis;
-  return (touched - near.origin.touched - carried).norm();
-}
-
 }  // namespace
 
 std::optional<metrology::BallContact> local_contact(const LocalSurroundings& near, int tool,
                                                     const cutter::Cutter& cutter,
                                                     const metrology::BallApproach& approach,
                                                     double path_bound) {
-  LocalPath local = path_of(near, tool, cutter.body().reach(), path_bound);
+  LocalPath local = path_of(near, tool, cutter.body(), path_bound);
   const auto swept = cutter::SweptCutter::sweep(std::move(local.path),
                                                 std::map<int, cutter::Cutter>{{tool, cutter}});
   if (!swept) return std::nullopt;
@@ -102,7 +113,7 @@ std::optional<metrology::BallContact> local_contact(const LocalSurroundings& nea
   if (contact.state != metrology::ContactState::contact || !probe.stays_inside()) {
     return std::nullopt;
   }
-  const double drift = drift_of(near, contact.touch.point);
+  const double drift = (contact.touch.point - carried(near)).norm();
   const double moved = (contact.touch.point - near.origin.touched).norm();
   const bool keeps_away = near.others.per_scale * near.scale + near.others.per_drift * drift +
                               near.others.per_nearer * moved <

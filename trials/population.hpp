@@ -17,8 +17,8 @@
 //            diagnostics; the others go on. What cannot be followed is no error: it is asked whole,
 //            and reasons() says why
 // Accuracy : follows the commanded motion itself, so that path_bound enters only where points are
-//            local or whole: within 2 nm of run_trial() with a path_bound of 1 nm
-//            (tests/trials/population_test.cpp)
+//            local or whole: within 2 nm of run_trial() with a path_bound of 1 nm, which itself is
+//            within its path_bound of the motion (tests/trials/population_test.cpp)
 // Speed    : bench/population_bench.cpp
 // Source   : envelope condition of swept volumes; ours
 #pragma once

@@ -1,8 +1,8 @@
 // What differs between the machines of a population: error shapes whose amounts are drawn, as
 // columns of a matrix that a draw weighs.
 //
-// Model    : the errors of a draw are  fixed + sum_j w_j unit_j,  unit_j one mm or rad of one shape.
-//            A shape with a drawn amount is one column; a harmonic or cyclic shape with a drawn
+// Model    : the errors of a draw are fixed + sum_j w_j unit_j, unit_j one mm or rad of a shape. A
+//            shape with a drawn amount is one column; a harmonic or cyclic shape with a drawn
 //            phase is two, with  w = a cos(phase) and -a sin(phase)  for an amount a: the errors
 //            are linear in the weights whatever the laws are. A polynomial has a column for each
 //            drawn coefficient
@@ -12,7 +12,7 @@
 //            their laws; "population-law" for what is not linear: a tent that is drawn where it
 //            stands. Such populations are drawn and tried one by one
 // Accuracy : errors(weights(drawn)) is what error_assignment.hpp makes of `drawn`, but for rounding
-//            (tests/trials/population_laws_test.cpp)
+//            (tests/trials/population_test.cpp)
 // Source   : ours
 #pragma once
 
