@@ -100,6 +100,9 @@ struct SeamlessValue {
 struct CharacteristicResult {
   std::string name{};
   std::string kind{};
+  std::vector<std::string> features{};  // toleranced, datums, as the plan names them
+  std::vector<std::size_t> sections{};  // of the first, where the plan names them
+  std::string frame{};                  // where it names one
   std::string parameter{};  // of a form, as the plan states it: "t", "p", "v", "q"; else empty
   bool floating = false;    // a profile whose planned geometry was laid into its points
   double value = 0.0;

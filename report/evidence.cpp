@@ -14,6 +14,10 @@ HashedFile hashed_file(std::string role, const std::string& path, std::string_vi
   return {std::move(role), std::filesystem::path(path).filename().string(), sha256(bytes)};
 }
 
+std::string fingerprint_text(const HashedFile& file) {
+  return file.sha256.empty() ? "not known: it was read from a pipe" : file.sha256;
+}
+
 std::vector<Fact> stated(const metrology::ReportHeader& header) {
   std::vector<Fact> facts;
   for (const metrology::HeaderKey& row : metrology::kHeaderKeys) {
@@ -41,7 +45,7 @@ std::vector<Fact> all_facts(const Evidence& evidence, const std::string& version
     const int number = ++of_role[file.role];
     const std::string which = number == 1 ? std::string() : fmt::format("_{}", number);
     facts.push_back({"sha256_" + file.role + which, "SHA-256 of the " + file.role + " " + file.name,
-                     file.sha256});
+                     fingerprint_text(file)});
   }
   return facts;
 }

@@ -24,11 +24,13 @@ struct HashedFile {
   // "program", "subprogram", "plan", "job", "machine", "errors", "tools", "points", "mesh", ..
   std::string role{};
   std::string name{};    // without folders, so that a report does not depend on where it was made
-  std::string sha256{};  // of its bytes
+  std::string sha256{};  // of its bytes; empty: read from a pipe, and nobody has them any more
 };
 // The role, the name and the fingerprint of what a file held.
 [[nodiscard]] HashedFile hashed_file(std::string role, const std::string& path,
                                      std::string_view bytes);
+// For people: the fingerprint, or that there is none.
+[[nodiscard]] std::string fingerprint_text(const HashedFile& file);
 
 struct Evidence {
   metrology::ReportHeader header{};

@@ -1,5 +1,6 @@
 #include "report/form_parameter.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace frustum::report {
@@ -55,6 +56,23 @@ std::string parameter_text(std::string_view kind, std::string_view parameter) {
 
 std::string kind_text(const metrology::CharacteristicResult& characteristic) {
   return with_parameter(characteristic.kind, characteristic);
+}
+
+std::string subject_text(const metrology::CharacteristicResult& c) {
+  if (c.features.empty()) return {};
+  constexpr std::array<std::string_view, 7> kToDatums{
+      "perpendicularity", "parallelism",      "angularity",   "coaxiality",
+      "concentricity",    "circular_run_out", "total_run_out"};
+  const bool has_datums = std::ranges::find(kToDatums, c.kind) != kToDatums.end();
+  std::string text = c.features.front();
+  for (std::size_t k = 1; k < c.features.size(); ++k) {
+    text += (has_datums && k == 1 ? " to " : ", ") + c.features[k];
+  }
+  for (std::size_t k = 0; k < c.sections.size(); ++k) {
+    text += k > 0 ? ", " : c.sections.size() > 1 ? ", sections " : ", section ";
+    text += std::to_string(c.sections[k]);
+  }
+  return c.frame.empty() ? text : text + " in frame " + c.frame;
 }
 
 std::string name_text(const metrology::CharacteristicResult& characteristic) {

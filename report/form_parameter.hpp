@@ -1,4 +1,5 @@
-// Which parameter of a form its value is: the symbols of the standards, and in words.
+// Of what a characteristic is the value: features, datums, sections; which parameter of a form: the
+// symbols of the standards, and in words.
 //
 // A kind of which no standard has symbols (the form of a cone) gets words. Texts are empty, or
 // those of name and kind alone, where the plan states no parameter.
@@ -21,6 +22,9 @@ namespace frustum::report {
 
 // "roundness RONp"
 [[nodiscard]] std::string kind_text(const metrology::CharacteristicResult& characteristic);
+// What it is the value of: "cone to cylinder" (toleranced, datum), "bore, section 0", "lid in frame
+// top"; empty where nothing is known of it.
+[[nodiscard]] std::string subject_text(const metrology::CharacteristicResult& characteristic);
 // "bore.roundness RONp", for where the kind is not printed.
 [[nodiscard]] std::string name_text(const metrology::CharacteristicResult& characteristic);
 

@@ -14,7 +14,6 @@
 #include "app/view/console.hpp"
 #include "calibration/compensate/compensated_piece.hpp"
 #include "core/file_set.hpp"
-#include "core/whole_file.hpp"
 #include "trials/trial.hpp"
 
 namespace frustum::app {
@@ -77,11 +76,7 @@ Result<std::vector<fs::path>> write_compensated(const Job& job, programs::TestPi
   if (!text) return text.error();
   std::vector<std::pair<std::string, std::string>> contents{{"job.toml", *std::move(text)},
                                                             {piece.program_file, piece.program}};
-  if (!plan.empty()) {
-    auto bytes = read_whole_file(job.plan_file);
-    if (!bytes) return bytes.error();
-    contents.emplace_back(plan, *std::move(bytes));
-  }
+  if (!plan.empty()) contents.emplace_back(plan, job.plan_text);
   std::vector<std::string> names;
   for (const auto& [name, bytes] : contents) names.push_back(name);
   auto set = FileSet::open(folder, std::move(names));

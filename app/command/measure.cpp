@@ -13,6 +13,7 @@
 #include "app/job/job_report.hpp"
 #include "app/job/trial_run.hpp"
 #include "app/view/console.hpp"
+#include "core/whole_file.hpp"
 #include "metrology/plan/point_scale.hpp"
 #include "metrology/points/point_file.hpp"
 #include "metrology/uncertainty/point_uncertainty.hpp"
@@ -96,8 +97,8 @@ std::optional<Diagnostic> missing_accuracy(const CmmModel& cmm) {
 Result<metrology::Measurement> evaluated_points(const MeasureOptions& options,
                                                 const InspectionPlan& plan,
                                                 const std::optional<LengthUnit>& unit,
-                                                const CmmModel& cmm) {
-  const auto points = metrology::read_feature_points(options.points, unit);
+                                                const CmmModel& cmm, std::string_view bytes) {
+  const auto points = metrology::parse_feature_points(bytes, options.points, unit);
   if (!points) return points.error();
   if (auto fault = metrology::scale_fault(plan, *points)) {
     fault->file = options.points;
@@ -126,16 +127,24 @@ Result<metrology::Measurement> probed_mesh(const MeasureOptions& options,
   return faults;
 }
 
+// What was read, which a pipe would not give again.
+struct ReadFiles {
+  std::string plan{};
+  std::string points{};
+};
+
 Result<report::Evidence> evidence_of(const MeasureOptions& options, const InspectionPlan& plan,
-                                     const CmmModel& cmm) {
+                                     const CmmModel& cmm, const ReadFiles& read) {
   report::Evidence evidence;
   evidence.header = plan.header;
   const bool is_probed = !options.mesh.empty();
   evidence.measuring = report::measuring_statement(
       plan, cmm, is_probed ? report::PointSource::mesh : report::PointSource::measured_points);
-  const std::pair<const char*, const std::string&> files[] = {{"plan", options.plan},
-                                                              {"points", options.points},
-                                                              {"mesh", options.mesh},
+  evidence.files.push_back(report::hashed_file("plan", options.plan, read.plan));
+  if (!is_probed) {
+    evidence.files.push_back(report::hashed_file("points", options.points, read.points));
+  }
+  const std::pair<const char*, const std::string&> files[] = {{"mesh", options.mesh},
                                                               {"cmm", options.cmm.file}};
   for (const auto& [role, file] : files) {
     const Diagnostics problems = add_hash(evidence.files, role, file);
@@ -145,7 +154,11 @@ Result<report::Evidence> evidence_of(const MeasureOptions& options, const Inspec
 }
 
 int measure_by_plan(const MeasureOptions& options) {
-  const auto plan = metrology::load_plan(options.plan);
+  ReadFiles read;
+  auto bytes = read_whole_file(options.plan);
+  if (!bytes) return refuse(bytes.error(), options);
+  read.plan = *std::move(bytes);
+  const auto plan = metrology::parse_plan(read.plan, options.plan);
   if (!plan) return refuse(plan.error(), options);
   const auto unit = unit_of(options.unit);
   if (!unit) return refuse(unit.error(), options);
@@ -153,10 +166,14 @@ int measure_by_plan(const MeasureOptions& options) {
   if (!cmm) return refuse(cmm.error(), options);
   const auto exports = checked_exports(options.exports);
   if (!exports) return refuse(exports.error(), options);
-  auto measurement = with_progress(options, "measure", [&](report::Progress&) {
-    return options.mesh.empty() ? evaluated_points(options, *plan, *unit, *cmm)
-                                : probed_mesh(options, *plan, *unit, *cmm);
-  });
+  auto measurement =
+      with_progress(options, "measure", [&](report::Progress&) -> Result<metrology::Measurement> {
+        if (!options.mesh.empty()) return probed_mesh(options, *plan, *unit, *cmm);
+        auto points = metrology::read_point_bytes(options.points);
+        if (!points) return std::move(points).error();
+        read.points = *std::move(points);
+        return evaluated_points(options, *plan, *unit, *cmm, read.points);
+      });
   if (!measurement) {
     write_failed_exports(*exports, measurement.error(), *plan);
     return refuse(measurement.error(), options);
@@ -164,7 +181,7 @@ int measure_by_plan(const MeasureOptions& options) {
   if (auto missing = missing_accuracy(*cmm)) {
     measurement->diagnostics.push_back(*std::move(missing));
   }
-  auto evidence = evidence_of(options, *plan, *cmm);
+  auto evidence = evidence_of(options, *plan, *cmm, read);
   if (!evidence) return refuse(evidence.error(), options);
   report::RunReport report;
   const std::string& source = options.mesh.empty() ? options.points : options.mesh;

@@ -148,7 +148,8 @@ void read_operations(const TomlTable& root, programs::TestPiece& piece) {
 }
 
 void read_inspection(const TomlTable& root, bool want_plan, programs::TestPiece& piece,
-                     metrology::CmmModel& cmm_model, fs::path& plan_file, Diagnostics& problems) {
+                     metrology::CmmModel& cmm_model, fs::path& plan_file, std::string& plan_text,
+                     Diagnostics& problems) {
   const std::optional<TomlTable> inspection =
       want_plan ? root.table("inspection") : root.table_if("inspection");
   if (!inspection) return;
@@ -159,7 +160,13 @@ void read_inspection(const TomlTable& root, bool want_plan, programs::TestPiece&
   if (!inspection->has("plan") && !want_plan) return;
   if (inspection->text("plan").empty()) return;
   plan_file = inspection->file_path("plan");
-  auto plan = metrology::load_plan(plan_file);
+  auto bytes = read_whole_file(plan_file);
+  if (!bytes) {
+    problems.insert(problems.end(), bytes.error().begin(), bytes.error().end());
+    return;
+  }
+  plan_text = *std::move(bytes);
+  auto plan = metrology::parse_plan(plan_text, plan_file);
   if (plan && want_plan && plan->characteristics.empty()) {
     inspection->fail("plan", "the plan has no [[characteristic]]: there is nothing to check",
                      "add at least one characteristic with a tolerance");
@@ -277,7 +284,8 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
 
   metrology::CmmModel cmm;
   fs::path plan_file;
-  read_inspection(root, want_plan, piece, cmm, plan_file, problems);
+  std::string plan_text;
+  read_inspection(root, want_plan, piece, cmm, plan_file, plan_text, problems);
   if (const auto head = root.table_if("report")) {
     piece.plan.header = metrology::joined(metrology::read_report_header(*head), piece.plan.header);
   }
@@ -310,6 +318,7 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
              .text = *std::move(text),
              .machine_file = *machine_file,
              .plan_file = std::move(plan_file),
+             .plan_text = std::move(plan_text),
              .piece = std::move(piece),
              .errors = std::move(errors),
              .error_files = error_files_of(overrides.errors),

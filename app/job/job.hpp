@@ -30,6 +30,7 @@ struct Job {
   std::string text{};  // of the file
   std::filesystem::path machine_file{};
   std::filesystem::path plan_file{};  // empty: none
+  std::string plan_text{};
   programs::TestPiece piece{};
   std::vector<kinematics::ErrorEntry> errors{};
   std::vector<std::filesystem::path> error_files{};  // of the command line

@@ -21,6 +21,13 @@ void put_once(std::vector<report::HashedFile>& files, report::HashedFile file) {
   if (!known) files.push_back(std::move(file));
 }
 
+// A pipe or a device, which can be read only once.
+bool is_stream(const fs::path& file) {
+  std::error_code unknown;
+  return fs::exists(file, unknown) && !fs::is_regular_file(file, unknown) &&
+         !fs::is_directory(file, unknown);
+}
+
 class FileHashes {
  public:
   explicit FileHashes(std::vector<report::HashedFile>& files) : files_(files) {}
@@ -28,7 +35,7 @@ class FileHashes {
   // A document, and what it names in turn.
   void add(const std::string& role, const fs::path& file) {
     note(add_hash(files_, role, file));
-    if (file.extension() != ".toml") return;
+    if (file.extension() != ".toml" || is_stream(file)) return;
     if (const auto text = read_whole_file(file)) add_named(*text, file);
   }
   void add_named(std::string_view text, const fs::path& document) {
@@ -50,6 +57,10 @@ class FileHashes {
 
 Diagnostics add_hash(std::vector<report::HashedFile>& files, const std::string& role,
                      const fs::path& file) {
+  if (is_stream(file)) {
+    put_once(files, {role, file.filename().string(), ""});
+    return {};
+  }
   std::error_code unknown;
   if (!fs::is_regular_file(file, unknown)) return {};
   const auto bytes = read_whole_file(file);
@@ -67,7 +78,9 @@ Result<report::Evidence> evidence_of(const Job& job) {
   std::vector<report::HashedFile>& files = evidence.files;
   files.push_back(report::hashed_file("program", job.piece.program_file, job.piece.program));
   FileHashes hashes(files);
-  hashes.note(add_hash(files, "plan", job.plan_file));
+  if (!job.plan_file.empty()) {
+    files.push_back(report::hashed_file("plan", job.plan_file.string(), job.plan_text));
+  }
   files.push_back(report::hashed_file("job", job.file.string(), job.text));
   hashes.add("machine", job.machine_file);
   hashes.add_named(job.text, job.file);

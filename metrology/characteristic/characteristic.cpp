@@ -46,6 +46,9 @@ Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
   CharacteristicResult result;
   result.name = planned.name;
   result.kind = std::string(name_of(planned.kind));
+  result.features = planned.features;
+  result.sections = planned.sections;
+  result.frame = planned.frame;
   if (planned.parameter) {
     result.parameter = kParameterNames.at(static_cast<std::size_t>(*planned.parameter));
   }

@@ -51,8 +51,8 @@ std::optional<Diagnostic> without_redundancy(std::size_t parameters, std::size_t
       fmt::format("measure {} or more", parameters + 1));
 }
 
-// A circle has no axis but that of its own points. Heights over its plane tilt that, and make a form
-// of a round part; no matter where they are much less than the form.
+// A circle has no axis but that of its own points. Heights over its plane tilt that, and make a
+// form of a round part; no matter where they are much less than the form.
 std::optional<Diagnostic> uneven(const std::vector<Vec3>& points, double form_mm) {
   constexpr double kShare = 0.2;  // of the form: what is made of heights is estimated from above
   Vec3 centroid = Vec3::Zero();

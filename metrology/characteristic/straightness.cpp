@@ -86,8 +86,8 @@ bool goes_along(const PlanarProfile& profile, double least) {
 }
 
 // Groups of neighbours that are no more than `apart` from each other. One that is wider than half a
-// degree is parted at smaller gaps, as one is where each part goes along `least` by itself: in dense
-// sections all points are neighbours.
+// degree is parted at smaller gaps, as one is where each part goes along `least` by itself: all
+// points of dense sections are neighbours.
 std::vector<PlanarProfile> parted_by_angle(std::span<const PlacedPoint> placed, double apart,
                                            double least) {
   constexpr double kOneAngle = 0.5 * kRadPerDeg;

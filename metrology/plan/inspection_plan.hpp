@@ -272,8 +272,8 @@ struct PlannedCharacteristic {
   CharacteristicKind kind = CharacteristicKind::roundness;
   std::vector<std::string>
       features{};  // one; two for perpendicularity; one or two for concentricity
-  // Of the first feature, first = 0. Empty: the first; of run-outs, profiles of lines and a
-  // concentricity with a datum all; of one within a feature first and last.
+  // Of the first feature, first = 0. Empty: all, of which the worst counts; of a concentricity
+  // within one feature first and last.
   std::vector<std::size_t> sections{};
   double tolerance = 0.0;         // mm or rad: limit of the value, or of |value - nominal|
   std::string frame{};            // evaluated in this frame; empty: as all others

@@ -340,20 +340,19 @@ Result<std::vector<FoundPoints>> parse_ply(std::string_view bytes,
   return std::vector<FoundPoints>{std::move(found)};
 }
 
-Result<std::vector<FoundPoints>> read_file(const std::filesystem::path& file,
-                                           const std::optional<LengthUnit>& unit) {
-  std::error_code unknown;
-  if (std::filesystem::is_directory(file, unknown)) {
-    Diagnostic d = error("file-unreadable"_id, "this is a directory, not a file of points",
-                         "name one of the files in it");
-    d.file = file.string();
-    return d;
-  }
-  const auto text = read_whole_file(file);
-  if (!text) return text.error();
+Result<std::vector<FoundPoints>> parse_file(std::string_view text,
+                                            const std::filesystem::path& file,
+                                            const std::optional<LengthUnit>& unit) {
   std::string extension = file.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ".ply" ? parse_ply(*text, file, unit) : PointReader(file, unit).read(*text);
+  return extension == ".ply" ? parse_ply(text, file, unit) : PointReader(file, unit).read(text);
+}
+
+Result<std::vector<FoundPoints>> read_file(const std::filesystem::path& file,
+                                           const std::optional<LengthUnit>& unit) {
+  const auto bytes = read_point_bytes(file);
+  if (!bytes) return bytes.error();
+  return parse_file(*bytes, file, unit);
 }
 
 Result<std::vector<FeaturePoints>> without_weights(Result<std::vector<FoundPoints>> found,
@@ -374,10 +373,21 @@ Result<std::vector<FeaturePoints>> without_weights(Result<std::vector<FoundPoint
 
 }  // namespace
 
+Result<std::string> read_point_bytes(const std::filesystem::path& file) {
+  std::error_code unknown;
+  if (std::filesystem::is_directory(file, unknown)) {
+    Diagnostic d = error("file-unreadable"_id, "this is a directory, not a file of points",
+                         "name one of the files in it");
+    d.file = file.string();
+    return d;
+  }
+  return read_whole_file(file);
+}
+
 Result<std::vector<FeaturePoints>> parse_feature_points(std::string_view text,
                                                         const std::filesystem::path& file,
                                                         const std::optional<LengthUnit>& unit) {
-  return without_weights(PointReader(file, unit).read(text), file);
+  return without_weights(parse_file(text, file, unit), file);
 }
 
 Result<std::vector<FeaturePoints>> read_feature_points(const std::filesystem::path& file,

@@ -42,6 +42,9 @@ struct PointCloud {
 // Weights are refused: the evaluation of a plan has none.
 [[nodiscard]] Result<std::vector<FeaturePoints>> read_feature_points(
     const std::filesystem::path& file, const std::optional<LengthUnit>& unit = {});
+// Its bytes, for whoever keeps them beside the points.
+[[nodiscard]] Result<std::string> read_point_bytes(const std::filesystem::path& file);
+// What such a file holds; `file` names it, and its extension tells PLY from text.
 [[nodiscard]] Result<std::vector<FeaturePoints>> parse_feature_points(
     std::string_view text, const std::filesystem::path& file = {},
     const std::optional<LengthUnit>& unit = {});

@@ -67,6 +67,9 @@ Json characteristic_json(const metrology::CharacteristicResult& characteristic) 
   json["name"] = characteristic.name;
   json["kind"] = characteristic.kind;
   if (!characteristic.parameter.empty()) json["parameter"] = characteristic.parameter;
+  json["features"] = characteristic.features;
+  if (!characteristic.sections.empty()) json["sections"] = characteristic.sections;
+  if (!characteristic.frame.empty()) json["frame"] = characteristic.frame;
   if (characteristic.floating) json["floating"] = true;
   json["value"] = json_number(characteristic.value);
   json["unit"] = characteristic.unit;
@@ -134,7 +137,9 @@ Json evidence_json(const RunReport& report) {
     json["error_draw"] = {{"seed", draw->seed}, {"index", draw->index}};
   }
   json["files"] = array_of(report.evidence.files, [](const HashedFile& file) {
-    return Json{{"role", file.role}, {"name", file.name}, {"sha256", file.sha256}};
+    return Json{{"role", file.role},
+                {"name", file.name},
+                {"sha256", file.sha256.empty() ? Json(nullptr) : Json(file.sha256)}};
   });
   return json;
 }

@@ -148,8 +148,10 @@ std::string characteristics_html(const RunReport& report) {
   headings.emplace_back("Verdict");
   Table table("Characteristics", headings, TableStyle::cards);
   for (const Characteristic& c : all) {
+    std::string words = kind_text(c);
+    if (const std::string subject = subject_text(c); !subject.empty()) words += " of " + subject;
     const std::string kind =
-        c.kind.empty() ? "" : fmt::format("<small>{}</small>", html_text(kind_text(c)));
+        c.kind.empty() ? "" : fmt::format("<small>{}</small>", html_text(words));
     std::vector<std::string> cells{fmt::format("<span class=\"what\">{}<span><b>{}</b>{}</span>"
                                                "</span>",
                                                tolerance_symbol(c.kind), html_text(c.name), kind),
@@ -202,7 +204,7 @@ std::string measuring_html(const RunReport& report) {
     Table table("Files", {"File", "Name", "SHA-256"});
     for (const HashedFile& file : evidence.files) {
       table.row({html_text(file.role), html_text(file.name),
-                 "<code class=\"hash\">" + file.sha256 + "</code>"});
+                 "<code class=\"hash\">" + fingerprint_text(file) + "</code>"});
     }
     html += "<h3>Files</h3>" + table.html();
   }

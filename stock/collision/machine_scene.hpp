@@ -3,7 +3,8 @@
 // Model    : each hangs on one part of the machine and never moves against it. The blank is whole,
 //            as it is before the program begins; a tool's cutter is as long as it really is
 // Units    : mm; frames as in kinematics/model/machine_body.hpp
-// Errors   : meshes that cannot be read or bound no body (open, facing inwards), with their file; bodies that reach 100 m or farther
+// Errors   : meshes that cannot be read or bound no body (open, facing inwards), with their file;
+//            bodies that reach 100 m or farther
 #pragma once
 
 #include <cstdint>

@@ -165,5 +165,39 @@ TEST_F(EvidenceSystem, Attack2_3_TheFileOfTheCmmIsInTheResult) {
   EXPECT_EQ(files_of(json::parse(told.out))["cmm"], std::vector<std::string>{"cmm.toml"});
 }
 
+TEST_F(EvidenceSystem, Attack3_3_PlanAndPointsFromPipesHaveTheirHashes) {
+  write_piece();
+  ASSERT_LE(run("run piece/job.toml --out a --quiet").exit_code, 1);
+  const Outcome told = shell(
+      "mkfifo p.toml q.csv; cat piece/cone.plan.toml >p.toml & cat a/points.csv >q.csv & "
+      "frustum measure --plan p.toml --points q.csv --json");
+  ASSERT_LE(told.exit_code, 1) << told.err;
+  const json files = json::parse(told.out)["evidence"]["files"];
+  ASSERT_EQ(files.size(), 2U);
+  EXPECT_EQ(files[0]["sha256"], sha256(read(folder_ / "piece/cone.plan.toml")));
+  EXPECT_EQ(files[1]["sha256"], sha256(read(folder_ / "a/points.csv")));
+}
+
+TEST_F(EvidenceSystem, Attack3_3_OtherPipesAreNamedWithoutAHash) {
+  write_plate();
+  const Outcome told = shell(
+      "mkfifo e.toml f.toml; cat more.toml >e.toml & cat floor.plan.toml >f.toml & "
+      "sed -i s/floor.plan/f/ plate.toml; "
+      "frustum measure plate.toml --json --errors e.toml --export a.qif");
+  ASSERT_LE(told.exit_code, 1) << told.err;
+  const json result = json::parse(told.out);
+  bool found = false;
+  for (const json& file : result["evidence"]["files"]) {
+    if (file["role"] == "plan") {
+      EXPECT_EQ(file["sha256"], sha256(read(folder_ / "floor.plan.toml")));
+    }
+    if (file["name"] != "e.toml") continue;
+    found = true;
+    EXPECT_TRUE(file["sha256"].is_null());
+  }
+  EXPECT_TRUE(found);
+  EXPECT_NE(read(folder_ / "a.qif").find("read from a pipe"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace frustum

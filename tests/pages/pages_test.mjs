@@ -40,7 +40,10 @@ function makePages() {
   const job = readFileSync(join(work, 'piece/job.toml'), 'utf8');
   const plan = readFileSync(join(work, 'piece/cone.plan.toml'), 'utf8');
   writeFileSync(join(work, 'piece/judged.plan.toml'),
-                plan.replace('"600 urad"', '"20 urad"').replace('"100 um"', '"0.1 um"'));
+                plan.replace('"600 urad"', '"20 urad"').replace('"100 um"', '"0.1 um"') +
+                    '\n[[characteristic]]\nname = "cylinder.diameter"\nkind = "diameter"\nfeature = "cylinder"\n' +
+                    'tolerance = "20 um"\n[[characteristic]]\nname = "cone.coaxiality"\nkind = "coaxiality"\n' +
+                    'features = ["cone", "cylinder"]\ndatum_criterion = "om"\ntolerance = "2 um"\n');
   writeFileSync(join(work, 'piece/judged.toml'),
                 job.replace('cone.plan.toml', 'judged.plan.toml')
                     .replace('{ e0 = "0 um" }', '{ e0 = "2 um", l_per_um = 300, seed = 1 }\ndecision = "iso14253"') +
@@ -101,7 +104,9 @@ const overflow = `(() => {
 const hiddenCells = `[...document.querySelectorAll('.cards tbody td')].filter((cell) => {
   if (cell.textContent === '') return false;
   const box = cell.getBoundingClientRect();
-  return box.width === 0 || box.left < 0 || box.right > document.documentElement.clientWidth + 0.5;
+  const scrolled = cell.closest('.scroll')?.getBoundingClientRect().right ?? Infinity;
+  const edge = Math.min(scrolled, document.documentElement.clientWidth);
+  return box.width === 0 || box.left < 0 || box.right > edge + 0.5;
 }).map((cell) => cell.dataset.label).join(', ')`;
 
 // What `read` gives once it is as wanted. A busy machine takes its time; what never comes is given up after two
@@ -123,6 +128,15 @@ async function checkTelephone(page) {
   const hidden = await browser.evaluate(hiddenCells);
   expect(hidden === '', page, `390 px: not seen: ${hidden}`);
   await picture(`${page}-390`);
+}
+
+// Attack3_10: the verdict is not beyond the edge of a table that scrolls.
+async function checkDesk(page) {
+  for (const width of [1440, 1170, 1000]) {
+    await browser.size(width, 900, false);
+    const hidden = await settled(() => browser.evaluate(hiddenCells), (text) => text === '');
+    expect(hidden === '', page, `${width} px: not seen: ${hidden}`);
+  }
 }
 
 async function checkKeyboard(page) {
@@ -214,6 +228,7 @@ try {
     await picture(`${page}-dark`);
     await scheme('light');
     await checkTelephone(page);
+    await checkDesk(page);
     await browser.size(1200, 900);
     await checkPaper(page);
     expect(messages.length === 0, page, `on the console: ${messages.splice(0).join(' | ')}`);
@@ -228,7 +243,8 @@ try {
   // What a metrologist asks: what was measured, with what, by which rule, is it inside, how uncertain is it.
   const judged = await words('judged');
   for (const answer of ['0042', '4711', 'A. Example', '2026-11-23', 'CMM 7, no. 12', 'E0 = 2 µm', 'ball diameter',
-                        'ISO 14253-1: pass where', 'datums A | C | groove', 'uncertain', 'SHA-256']) {
+                        'ISO 14253-1: pass where', 'datums A | C | groove', 'uncertain', 'SHA-256', 'coaxiality of cone to cylinder',
+                        'not proven']) {
     expect(judged.includes(answer), 'judged', `does not say "${answer}"`);
   }
   expect((await words('ideal')).includes('U = 0: no error of the CMM is stated'), 'ideal', 'does not say that U = 0');

@@ -7,7 +7,10 @@
 #include <tuple>
 
 #include "report/exchange/export_file.hpp"
+#include "report/exchange/json_report.hpp"
+#include "report/form_parameter.hpp"
 #include "report/measuring_statement.hpp"
+#include "report/page/html_report.hpp"
 #include "sample_report.hpp"
 
 namespace frustum::report {
@@ -212,6 +215,33 @@ TEST(Evidence, Fault2_38_WhatIsNotStatedIsNotMadeUp) {
             std::string::npos);
   const auto json = nlohmann::json::parse(exported(ExportFormat::json, report, {}));
   EXPECT_TRUE(json["evidence"]["operator"].is_null());
+}
+
+TEST(Evidence, Attack3_9_EachValueSaysOfWhatItIs) {
+  RunReport report = small_report();
+  metrology::CharacteristicResult& c = report.measurement.characteristics.front();
+  c.kind = "coaxiality";
+  c.features = {"journal", "bore", "bore 2"};
+  EXPECT_EQ(subject_text(c), "journal to bore, bore 2");
+  EXPECT_NE(html_report(report).find("coaxiality of journal to bore, bore 2"), std::string::npos);
+  const auto json = nlohmann::json::parse(json_report(report))["characteristics"][0];
+  EXPECT_EQ(json["features"], (nlohmann::json{"journal", "bore", "bore 2"}));
+  c.kind = "roundness";
+  c.features = {"journal"};
+  c.sections = {2};
+  EXPECT_EQ(subject_text(c), "journal, section 2");
+  c.sections = {0, 2};
+  c.frame = "top";
+  EXPECT_EQ(subject_text(c), "journal, sections 0, 2 in frame top");
+}
+
+TEST(Evidence, Attack3_3_WhatCameThroughAPipeIsNamedWithoutAHash) {
+  RunReport report = told_report();
+  report.evidence.files.push_back({"errors", "fifo", ""});
+  EXPECT_EQ(value_of(all_facts(report.evidence, report.version), "sha256_errors"),
+            "not known: it was read from a pipe");
+  const auto json = nlohmann::json::parse(json_report(report))["evidence"]["files"][1];
+  EXPECT_TRUE(json["sha256"].is_null());
 }
 
 }  // namespace
