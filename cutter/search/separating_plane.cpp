@@ -65,7 +65,9 @@ double SeparatingPlane::support(double lateral, double axial) const {
 double SeparatingPlane::support_of_round(double lateral, double axial) const {
   const double touched_at = round_.centre + round_.radius * axial;
   const bool on_face = round_.z_lo <= touched_at && touched_at <= round_.z_hi && lateral > 0.0;
-  if (!on_face || !body_->is_convex()) return support(lateral, axial);
+  // A rim touches planes of its two faces' latitudes and between; the body says which.
+  const bool is_rim = round_.radius == 0.0;
+  if (!on_face || is_rim || !body_->is_convex()) return support(lateral, axial);
   return lateral * round_.major + axial * round_.centre + round_.radius;
 }
 
