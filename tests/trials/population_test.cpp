@@ -114,7 +114,7 @@ void expect_equal_to_whole_trials(const ConePopulation& cone, std::uint32_t coun
   }
   EXPECT_LT(worst, 2e-6);
   EXPECT_LT(worst_value, 4e-6);
-  RecordProperty("worst_nm", std::to_string(1e6 * worst));
+  testing::Test::RecordProperty("worst_nm", std::to_string(1e6 * worst));
 }
 
 TEST(PopulationLaws, FollowWholeTrialsWithinTwoNanometres) {
