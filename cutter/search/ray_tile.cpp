@@ -18,6 +18,9 @@ namespace {
 constexpr double kSurely = 1e-10;
 // The ends of an anchor count for so much less (mm): more than a solution leaves of an end.
 constexpr double kInward = 1e-6;
+// Groups are divided for a tile while they are this many times larger: finer ones are more to ask
+// than they save.
+constexpr double kCoarse = 4.0;
 // Planes that a ray meets at a smaller cosine bound badly.
 constexpr double kGrazingCover = 0.02;
 
@@ -155,7 +158,7 @@ class TileSearch {
     solve(*middle, first, last, neighbour);
     done_[*middle] = 1;
     if (count == 1) return;
-    constexpr std::size_t kFew = 2;
+    constexpr std::size_t kFew = 16;
     const std::size_t anchored = anchors_.size();
     if (count > kFew && middle_of(at)) {
       const Tile tile = tile_of(at, question_.rays[*middle]);
@@ -350,7 +353,7 @@ class TileSearch {
     const Verdict verdict = judge(tile, group);
     if (verdict == Verdict::aside) return true;
     const std::size_t before = lists_.size();
-    if (verdict == Verdict::open && group.count == 0 && group.shift > tile.size) {
+    if (verdict == Verdict::open && group.count == 0 && group.shift > kCoarse * tile.size) {
       const bool lower = sift(tile, group.children);
       const bool upper = sift(tile, group.children + 1);
       if (lower || upper) return true;
