@@ -179,7 +179,7 @@ std::string uncertainty_text_of(const InspectionPlan& plan, const CmmModel& cmm,
              "value +- U holds the true value in 95 % of measurements, by what is stated of the "
              "machine") +
          (unproven.empty() ? ""
-                           : fmt::format("; not proven of {}, which rest on single touched points",
+                           : fmt::format("; not proven where single touched points decide: {}",
                                          fmt::join(unproven, ", "))) +
          (plan.monte_carlo ? "; the interval is simulated (Monte Carlo)" : "");
 }

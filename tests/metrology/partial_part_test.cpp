@@ -80,6 +80,26 @@ TEST(CircumscribedForms, Attack3_5_OfLessThanHalfATurnAreRefused) {
   }
 }
 
+TEST(InscribedForms, Attack3_11_OfArcsThatLeaveRoomForALargerOneAreRefused) {
+  const PlannedFeature part = measured::cylinder("pin", {3, -4, 5}, Vec3::UnitZ(), 20.0);
+  const Pose lies = measured::turned(Vec3(0.6, 0.8, 0.0), 0.1);
+  for (const double shift : {0.0, 90.0, 180.0}) {
+    for (const double degrees : {90.0, 360.0}) {
+      std::vector<Spot> spots = arc_of(degrees, 3);
+      for (Spot& s : spots) s.angle += shift * kRadPerDeg * static_cast<double>(s.section);
+      const auto value = evaluated_of(
+          measured::characteristic(K::cylindricity, {"pin"}, Criterion::maximum_inscribed),
+          round_one(part, lies, spots));
+      if (value) {
+        EXPECT_LT(value->value, 1e-6) << degrees << " deg, turned by " << shift;
+      } else {
+        EXPECT_LT(degrees, 360.0) << to_string(value.error().front());
+        EXPECT_THAT(value.error().front().id.text(), testing::StartsWith("association-"));
+      }
+    }
+  }
+}
+
 TEST(CircleForms, Attack3_6_HeightsOfACircleMakeNoForm) {
   synthetic::Draws draws(36);
   for (int i = 0; i < 60; ++i) {

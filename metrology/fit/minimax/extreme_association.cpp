@@ -291,18 +291,28 @@ double radius_of(const Element& element) {
 
 // The smallest circle around an arc of less than half a turn is that over its chord, on which the
 // points are not. Of points that surround the least-squares centre none is smaller than the nearest
-// of them is far.
-std::optional<Diagnostic> over_a_chord(const Task& task, const Association& found,
-                                       const Fit<Element>& squares) {
-  if (task.what != Sought::circumscribed) return std::nullopt;
+// of them is far, and none that is inscribed larger than the farthest: arcs at different heights
+// leave room between them for a larger cylinder.
+std::optional<Diagnostic> not_of_the_part(const Task& task, const Association& found,
+                                          const Fit<Element>& squares) {
   constexpr double kProof = 1e-9;  // mm, as good as the association is
-  const double least = radius_of(squares.element) - squares.form - kProof;
-  if (radius_of(found.fit.element) >= least) return std::nullopt;
-  return error("association-open"_id,
-               fmt::format("the smallest {} around these points is that over their chord: they go "
-                           "around less than half of it",
-                           task.kind.name),
-               "probe around more than half of the circumference, or use 'ls' or 'mz'");
+  const double radius = radius_of(found.fit.element), middle = radius_of(squares.element);
+  if (task.what == Sought::circumscribed && radius < middle - squares.form - kProof) {
+    return error("association-open"_id,
+                 fmt::format("the smallest {} around these points is that over their chord: they "
+                             "go around less than half of it",
+                             task.kind.name),
+                 "probe around more than half of the circumference, or use 'ls' or 'mz'");
+  }
+  if (task.what == Sought::inscribed && middle > 0.0 && radius > middle + squares.form + kProof) {
+    return error("association-open"_id,
+                 fmt::format("the largest {} within these points is {:.3g} um larger than the one "
+                             "that they are on: they leave room between them",
+                             task.kind.name, 1e3 * (radius - middle)),
+                 "probe around more than half of the circumference at each height, or use 'ls' or "
+                 "'mz'");
+  }
+  return std::nullopt;
 }
 
 Diagnostic unproven(const Task& task) {
@@ -354,7 +364,7 @@ Result<Association> extreme_association(std::string_view name, std::span<const V
   }
   if (!found.solution.proven || 2.0 * found.solution.gap > tolerance(*local)) return unproven(task);
   Association result = finished(task, found);
-  if (auto open = over_a_chord(task, result, *start)) return *std::move(open);
+  if (auto open = not_of_the_part(task, result, *start)) return *std::move(open);
   return result;
 }
 
