@@ -21,6 +21,7 @@ const std::map<std::string, Room>& rooms() {
       {"report", {6, {"html", "chart", "picture", "page", "exchange", "sheet"}}},
       {"trials", {7}},
       {"calibration", {8, {"identify", "design", "compensate"}}},
+      {"studies", {8, {"samples"}}},
       {"app", {9, {"job", "view", "command"}}},
   };
   return kRooms;
