@@ -46,7 +46,7 @@ SampleBlock between(const SampleBlock& block, std::uint64_t begin, std::uint64_t
   }
   some.deviations = cut(block.deviations, first * block.points, last * block.points);
   std::ranges::copy_if(block.failed, std::back_inserter(some.failed),
-                       [&](const FailedDraw& f) { return f.draw >= begin && f.draw < end; });
+                       [&](const FailedSample& f) { return f.draw >= begin && f.draw < end; });
   return some;
 }
 

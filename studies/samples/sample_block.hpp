@@ -27,7 +27,7 @@ struct PassColumn {
   std::vector<std::uint8_t> values{};  // 1: within the limit
 };
 
-struct FailedDraw {
+struct FailedSample {
   std::uint64_t draw = 0;
   std::string message{};
 };
@@ -41,7 +41,7 @@ struct SampleBlock {
   std::vector<PassColumn> passes{};
   std::size_t points = 0;
   std::vector<double> deviations{};
-  std::vector<FailedDraw> failed{};
+  std::vector<FailedSample> failed{};
 };
 
 // Adds the draws after those of `block`. Precondition: the same columns, or none in `block`.

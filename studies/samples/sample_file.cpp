@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view kPass = "pass/";
 constexpr const char* kDraw = "draw";
 constexpr const char* kPoints = "points";
-constexpr const char* kFailedDraw = "failed/draw";
+constexpr const char* kFailedSample = "failed/draw";
 constexpr const char* kFailedMessage = "failed/message";
 
 // After the bytes of the file, where readers of HDF5 do not look: the SHA-256 of all before it. The
@@ -46,11 +46,11 @@ Result<std::string> encoded(const SampleFile& file) {
   if (block.points > 0) writer.write(kPoints, block.deviations, "um", block.points);
   std::vector<std::int64_t> failed;
   std::vector<std::string> messages;
-  for (const FailedDraw& f : block.failed) {
+  for (const FailedSample& f : block.failed) {
     failed.push_back(static_cast<std::int64_t>(f.draw));
     messages.push_back(f.message);
   }
-  writer.write(kFailedDraw, failed);
+  writer.write(kFailedSample, failed);
   writer.write(kFailedMessage, messages);
   return writer.bytes().transform([](std::string bytes) { return bytes + seal_of(bytes); });
 }
@@ -103,12 +103,12 @@ Result<SampleFile> decoded(std::string_view bytes, const std::string& name,
     return !target.empty();
   };
   for (const std::string& dataset : reader->datasets()) {
-    const bool always = dataset == kDraw || dataset == kFailedDraw || dataset == kFailedMessage;
+    const bool always = dataset == kDraw || dataset == kFailedSample || dataset == kFailedMessage;
     if (!always && !wanted(dataset)) continue;
     bool whole = false;
     if (dataset == kDraw) {
       whole = take(block.draws, reader->whole_numbers(dataset));
-    } else if (dataset == kFailedDraw) {
+    } else if (dataset == kFailedSample) {
       whole = take(failed, reader->whole_numbers(dataset));
     } else if (dataset == kFailedMessage) {
       whole = take(messages, reader->texts(dataset));

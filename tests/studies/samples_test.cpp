@@ -32,7 +32,7 @@ bool same(const SampleBlock& a, const SampleBlock& b) {
   const auto same_pass = [](const PassColumn& c, const PassColumn& d) {
     return c.name == d.name && c.values == d.values;
   };
-  const auto same_failure = [](const FailedDraw& f, const FailedDraw& g) {
+  const auto same_failure = [](const FailedSample& f, const FailedSample& g) {
     return f.draw == g.draw && f.message == g.message;
   };
   return a.first_draw == b.first_draw && a.count == b.count && a.draws == b.draws &&
@@ -111,7 +111,7 @@ TEST(SampleFile, ReadsAgainWhatWasWrittenBitByBit) {
   }
 }
 
-TEST(SampleFile, OfFailedDrawsAloneHasNoColumns) {
+TEST(SampleFile, OfFailedSamplesAloneHasNoColumns) {
   SampleBlock block{.first_draw = 0, .count = 1};
   block.failed = {{0, "no"}};
   const auto again = decoded(*encoded({kMark, block}), "file");
