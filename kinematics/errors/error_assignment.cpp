@@ -61,6 +61,7 @@ PlainTerm plain_term(const ErrorShape& shape, const Joint& joint, const AxisSpan
       return TableTerm::of(shape.points, shape.interpolation, shape.periodic);
     case ErrorShape::Kind::surface:
       return shape.surface;
+    case ErrorShape::Kind::field:  // check_shape() refuses it
     case ErrorShape::Kind::constant:
       break;
   }
@@ -125,6 +126,10 @@ std::optional<Diagnostic> check_shape(const Machine& machine, const ErrorEntry& 
     return problem(
         fmt::format("a position of {} is {}", to_char(name.axis), a_length_or_an_angle(along)),
         along == UnitKind::angle ? "for example 90 deg" : "for example 100 mm");
+  }
+  if (shape.kind == ErrorShape::Kind::field) {
+    return problem("a random field is drawn by a study",
+                   "frustum study draws it; write a harmonic or a table here");
   }
   if (name.location && shape.kind != ErrorShape::Kind::constant) {
     return problem("a location error is a constant", "component errors such as EXX take shapes");

@@ -11,26 +11,6 @@
 namespace frustum::kinematics {
 namespace {
 
-// FNV-1a: the same on every platform, unlike std::hash.
-std::uint64_t stream_of(std::string_view name) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char c : name) {
-    hash ^= static_cast<unsigned char>(c);
-    hash *= 1099511628211ULL;
-  }
-  return hash;
-}
-
-double drawn_from(const Distribution& d, const RandomKey& key, std::uint64_t stream) {
-  if (d.kind == Distribution::Kind::uniform) return d.lo + (d.hi - d.lo) * uniform(key, stream);
-  // A limit of a tenth of sd, the narrowest, keeps one draw in twelve: 1000 never fail.
-  for (std::uint64_t attempt = 0; attempt < 1000; ++attempt) {
-    const double deviation = d.deviation * normal(key, stream + attempt);
-    if (!d.limit || std::abs(deviation) <= *d.limit) return d.mean + deviation;
-  }
-  return d.mean;
-}
-
 class Drawing {
  public:
   Drawing(std::uint64_t seed, std::uint32_t index)
@@ -72,6 +52,31 @@ class Drawing {
 };
 
 }  // namespace
+
+std::uint64_t stream_of(std::string_view name) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char c : name) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 1099511628211ULL;
+  }
+  return hash;
+}
+
+double drawn_from(const Distribution& distribution, const RandomKey& key, std::uint64_t stream) {
+  const Distribution d = distribution.read_as(ToleranceReading::uniform);
+  if (d.kind == Distribution::Kind::uniform) return d.lo + (d.hi - d.lo) * uniform(key, stream);
+  if (d.kind == Distribution::Kind::triangular) {
+    const double u = uniform(key, stream);
+    const double reach = 0.5 * (d.hi - d.lo);
+    return u < 0.5 ? d.lo + reach * std::sqrt(2.0 * u) : d.hi - reach * std::sqrt(2.0 * (1.0 - u));
+  }
+  // A limit of a tenth of sd, the narrowest, keeps one draw in twelve: 1000 never fail.
+  for (std::uint64_t attempt = 0; attempt < 1000; ++attempt) {
+    const double deviation = d.deviation * normal(key, stream + attempt);
+    if (!d.limit || std::abs(deviation) <= *d.limit) return d.mean + deviation;
+  }
+  return d.mean;
+}
 
 std::vector<ErrorEntry> draw(std::span<const ErrorEntry> entries, std::uint64_t seed,
                              std::uint32_t index) {

@@ -3,8 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 namespace frustum::kinematics {
 namespace {
+
+constexpr std::array<std::string_view, 5> kReadings{"uniform", "normal-2sd", "normal-3sd",
+                                                    "normal-3sd-cut", "triangular"};
 
 // With as many digits as it takes to read the same value again, at least six.
 std::string quantity_text(double value, UnitKind kind) {
@@ -24,6 +30,13 @@ std::string quantity_text(double value, UnitKind kind) {
 std::string distribution_text(const Distribution& d) {
   if (d.kind == Distribution::Kind::uniform)
     return "uniform " + quantity_text(d.lo, d.unit) + " .. " + quantity_text(d.hi, d.unit);
+  if (d.kind == Distribution::Kind::triangular)
+    return "triangular " + quantity_text(d.lo, d.unit) + " .. " + quantity_text(d.hi, d.unit);
+  if (d.kind == Distribution::Kind::tolerance) {
+    return "nominal " + quantity_text(d.mean, d.unit) + " tolerance " +
+           quantity_text(*d.limit, d.unit) +
+           (d.reading ? fmt::format(" as {}", name_of(*d.reading)) : "");
+  }
   return "normal " + quantity_text(d.mean, d.unit) + " sd " + quantity_text(d.deviation, d.unit) +
          (d.limit ? " limit " + quantity_text(*d.limit, d.unit) : "");
 }
@@ -59,6 +72,46 @@ std::string position_text(double value, UnitKind kind) {
 
 }  // namespace
 
+std::string_view name_of(ToleranceReading reading) {
+  return kReadings.at(static_cast<std::size_t>(reading));
+}
+
+std::optional<ToleranceReading> tolerance_reading_named(std::string_view text) {
+  const auto found = std::find(kReadings.begin(), kReadings.end(), text);
+  if (found == kReadings.end()) return std::nullopt;
+  return static_cast<ToleranceReading>(found - kReadings.begin());
+}
+
+std::string_view name_of(FieldKernel kernel) {
+  return kernel == FieldKernel::gaussian ? "gaussian" : "matern32";
+}
+
+Distribution Distribution::read_as(ToleranceReading otherwise) const {
+  if (kind != Kind::tolerance) return *this;
+  Distribution law{.unit = unit, .mean = mean};
+  switch (reading.value_or(otherwise)) {
+    case ToleranceReading::normal_2sd:
+      law.kind = Kind::normal;
+      law.deviation = *limit / 2.0;
+      return law;
+    case ToleranceReading::normal_3sd_cut:
+      law.limit = limit;
+      [[fallthrough]];
+    case ToleranceReading::normal_3sd:
+      law.kind = Kind::normal;
+      law.deviation = *limit / 3.0;
+      return law;
+    case ToleranceReading::triangular:
+      law.kind = Kind::triangular;
+      break;
+    case ToleranceReading::uniform:
+      break;
+  }
+  law.lo = mean - *limit;
+  law.hi = mean + *limit;
+  return law;
+}
+
 std::string written(const ErrorShape& shape) {
   std::string text;
   if (shape.kind != ErrorShape::Kind::constant) text = std::string(name_of(shape.kind)) + " ";
@@ -85,6 +138,10 @@ std::string written(const ErrorShape& shape) {
   }
   if (shape.kind == ErrorShape::Kind::cyclic)
     text += " period " + position_text(shape.period, positions);
+  if (shape.kind == ErrorShape::Kind::field) {
+    text += fmt::format(" correlation {} kernel {}", position_text(shape.correlation, positions),
+                        name_of(shape.kernel));
+  }
   if (shape.kind == ErrorShape::Kind::tent) {
     text += " at " + (shape.peak.drawn.empty() ? position_text(shape.peak.value, positions)
                                                : amount_text(shape.peak));

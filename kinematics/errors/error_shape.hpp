@@ -22,14 +22,31 @@
 
 namespace frustum::kinematics {
 
+// What a tolerance T about a nominal value says of the values within it: that they are uniform, or
+// normal with a standard deviation of T/2 or T/3 (cut: drawn again beyond T), or triangular.
+enum class ToleranceReading : std::uint8_t {
+  uniform,
+  normal_2sd,
+  normal_3sd,
+  normal_3sd_cut,
+  triangular
+};
+// "uniform", "normal-2sd", "normal-3sd", "normal-3sd-cut", "triangular"
+[[nodiscard]] std::string_view name_of(ToleranceReading reading);
+[[nodiscard]] std::optional<ToleranceReading> tolerance_reading_named(std::string_view text);
+
 // What an amount may be drawn from.
 struct Distribution {
-  enum class Kind : std::uint8_t { uniform, normal };
+  enum class Kind : std::uint8_t { uniform, normal, triangular, tolerance };
   Kind kind = Kind::uniform;
   UnitKind unit = UnitKind::none;
-  double lo = 0.0, hi = 0.0;  // uniform
+  double lo = 0.0, hi = 0.0;  // uniform; triangular, with its peak in the middle
   double mean = 0.0, deviation = 0.0;
-  std::optional<double> limit{};  // normal: |x - mean| stays within it
+  std::optional<double> limit{};  // normal: |x - mean| stays within it; tolerance: its size
+  std::optional<ToleranceReading> reading{};  // of a tolerance, where it is written
+
+  // A tolerance as the law that its own reading, else this one, makes of it; others as they are.
+  [[nodiscard]] Distribution read_as(ToleranceReading otherwise) const;
 };
 // Quantities drawn once and used by several amounts, by name.
 using DrawnQuantities = std::map<std::string, Distribution>;
@@ -54,6 +71,11 @@ struct AxisFactor {
   std::vector<std::pair<double, double>> points{};
 };
 
+// How the values of a random function are alike at a distance x, for a correlation length l:
+// exp(-x^2 / 2 l^2), or (1 + sqrt(3) x / l) exp(-sqrt(3) x / l).
+enum class FieldKernel : std::uint8_t { gaussian, matern32 };
+[[nodiscard]] std::string_view name_of(FieldKernel kernel);
+
 // A shape; spans are absent when the axis's default span is meant.
 struct ErrorShape {
   enum class Kind : std::uint8_t {
@@ -64,6 +86,7 @@ struct ErrorShape {
     cyclic,
     reversal,
     tent,
+    field,
     table,
     surface
   };
@@ -77,8 +100,10 @@ struct ErrorShape {
   std::optional<double> zero{};    // where a linear term vanishes (default 0)
   std::optional<double> settle{};  // reversal: travel that takes up the play
   double period = 0.0;             // cyclic
+  double correlation = 0.0;        // field: the length over which its values are alike
+  FieldKernel kernel = FieldKernel::gaussian;
   UnitKind position_kind =
-      UnitKind::none;  // of span, zero, settle, period, peak, table; none: not given
+      UnitKind::none;  // of span, zero, settle, period, correlation, peak, table; none: not given
   std::vector<std::pair<double, double>> points{};  // table
   TableKind interpolation = TableKind::linear;
   bool periodic = false;
@@ -104,7 +129,8 @@ struct ErrorEntry {
 // added with " + ": "EXY=harmonic 1 10um + -10um". All forms: docs/errors.md.
 [[nodiscard]] Result<ErrorEntry> parse_error(std::string_view text,
                                              const DrawnQuantities& drawn = {});
-// "10um", "uniform -10um..10um", "normal 0urad sd 5urad limit 15urad", "-a1", "b1*cos(zeta)".
+// "10um", "uniform -10um..10um", "normal 0urad sd 5urad limit 15urad", "nominal 17urad tolerance
+// 4urad as normal-3sd", "-a1", "b1*cos(zeta)".
 [[nodiscard]] Result<Amount> parse_amount(std::string_view text, const DrawnQuantities& drawn = {});
 [[nodiscard]] Result<Distribution> parse_distribution(std::string_view text);
 // "0mm..200mm"

@@ -17,8 +17,8 @@ constexpr const char* kForms =
     "write NAME=VALUE, for example EB0C=30urad, \"EXX=linear 10um\" or "
     "\"EYX=harmonic 1 10um over 0mm..200mm phase 90deg\"";
 constexpr const char* kAmounts =
-    "an amount is 10um, uniform -10um..10um, normal 0um sd 5um limit 15um, or the name of a drawn "
-    "quantity";
+    "an amount is 10um, uniform -10um..10um, normal 0um sd 5um limit 15um, nominal 2um tolerance "
+    "1um, or the name of a drawn quantity";
 
 struct Keyword {
   std::string_view word;
@@ -31,11 +31,12 @@ constexpr std::array kKinds{Keyword{"constant", ErrorShape::Kind::constant},
                             Keyword{"cyclic", ErrorShape::Kind::cyclic},
                             Keyword{"reversal", ErrorShape::Kind::reversal},
                             Keyword{"tent", ErrorShape::Kind::tent},
+                            Keyword{"field", ErrorShape::Kind::field},
                             Keyword{"table", ErrorShape::Kind::table},
                             Keyword{"surface", ErrorShape::Kind::surface}};
-constexpr std::array<std::string_view, 12> kOptions{"over",   "zero", "phase", "period",
-                                                    "settle", "at",   "times", "uniform",
-                                                    "normal", "sd",   "limit", ".."};
+constexpr std::array<std::string_view, 18> kOptions{
+    "over", "zero",  "phase",      "period",  "settle",    "at", "times",       "uniform", "normal",
+    "sd",   "limit", "triangular", "nominal", "tolerance", "as", "correlation", "kernel",  ".."};
 
 bool is_keyword(std::string_view word) {
   return std::find(kOptions.begin(), kOptions.end(), word) != kOptions.end() ||
@@ -111,13 +112,16 @@ class WordReader {
 
   Distribution distribution() {
     Distribution d;
-    if (take("uniform")) {
+    if (take("nominal")) return tolerance();
+    if (peek() == "uniform" || peek() == "triangular") {
+      const std::string law = word("");
       const std::string text = word("a range such as -10um..10um");
       const auto range = parse_range(text);
       if (!range) {
-        fail(fmt::format("'uniform {}' is not a range such as -10um..10um", text));
+        fail(fmt::format("'{} {}' is not a range such as -10um..10um", law, text));
         return d;
       }
+      if (law == "triangular") d.kind = Distribution::Kind::triangular;
       d.unit = range->first.kind;
       d.lo = range->first.value;
       d.hi = range->second.value;
@@ -146,7 +150,8 @@ class WordReader {
   }
 
   Amount amount(const char* what) {
-    if (peek() == "uniform" || peek() == "normal") {
+    if (peek() == "uniform" || peek() == "normal" || peek() == "triangular" ||
+        peek() == "nominal") {
       Amount drawn{.value = 1.0};
       drawn.drawn.push_back({.distribution = distribution()});
       drawn.kind = drawn.drawn.front().distribution.unit;
@@ -175,6 +180,31 @@ class WordReader {
   }
 
  private:
+  // What follows "nominal": "17urad tolerance 4urad as normal-3sd".
+  Distribution tolerance() {
+    Distribution d{.kind = Distribution::Kind::tolerance};
+    const ParsedQuantity nominal = quantity(std::nullopt, "the nominal value");
+    if (!take("tolerance")) fail("'nominal' needs its tolerance: nominal 17urad tolerance 4urad");
+    const ParsedQuantity size = quantity(std::nullopt, "the tolerance");
+    d.unit = size.kind;
+    d.mean = nominal.value;
+    d.limit = size.value;
+    if (nominal.kind != d.unit && nominal.value != 0.0)
+      fail("nominal value and tolerance have different units");
+    if (!(size.value > 0.0)) fail("the tolerance must be above 0");
+    if (take("as")) {
+      const std::string text = word("how the tolerance is read");
+      d.reading = tolerance_reading_named(text);
+      if (!d.reading) {
+        fail(
+            fmt::format("'{}' is no reading of a tolerance: uniform, normal-2sd, normal-3sd, "
+                        "normal-3sd-cut or triangular",
+                        text));
+      }
+    }
+    return d;
+  }
+
   void has_unit(UnitKind unit, Amount& amount) {
     if (unit != UnitKind::none && amount.kind != UnitKind::none)
       fail("a product has one factor with a unit");
@@ -245,6 +275,7 @@ class TermReader {
       in_.fail("a cyclic error needs its period, above 0: period 5mm");
     if (shape_.kind == ErrorShape::Kind::tent && shape_.peak.kind == UnitKind::none)
       in_.fail("a triangular error needs the place of its peak: at 90deg");
+    if (shape_.kind == ErrorShape::Kind::field) check_field();
     if (!in_.problem().empty()) return error("error-text"_id, in_.problem(), kForms);
     return shape_;
   }
@@ -289,8 +320,8 @@ class TermReader {
   void option() {
     const Kind k = shape_.kind;
     const bool waves = k == Kind::harmonic || k == Kind::cyclic;
-    const bool spans =
-        k == Kind::linear || k == Kind::polynomial || k == Kind::harmonic || k == Kind::tent;
+    const bool spans = k == Kind::linear || k == Kind::polynomial || k == Kind::harmonic ||
+                       k == Kind::tent || k == Kind::field;
     if (spans && in_.take("over")) {
       span();
     } else if (waves && in_.take("phase")) {
@@ -300,6 +331,10 @@ class TermReader {
       shape_.zero = position("the position of the zero");
     } else if (k == Kind::cyclic && in_.take("period")) {
       shape_.period = position("the period, 5mm or 10deg");
+    } else if (k == Kind::field && in_.take("correlation")) {
+      shape_.correlation = position("the correlation length, 40mm or 30deg");
+    } else if (k == Kind::field && in_.take("kernel")) {
+      kernel();
     } else if (k == Kind::reversal && in_.take("settle")) {
       shape_.settle = position("the take-up distance, 0.01mm or 0.1deg");
       if (*shape_.settle < 0.0) in_.fail("the take-up distance is 0 or more");
@@ -311,6 +346,24 @@ class TermReader {
     } else {
       in_.fail(fmt::format("'{}' is not understood here", in_.peek()));
     }
+  }
+
+  void kernel() {
+    const std::string text = in_.word("gaussian or matern32");
+    for (const FieldKernel known : {FieldKernel::gaussian, FieldKernel::matern32}) {
+      if (text != name_of(known)) continue;
+      shape_.kernel = known;
+      return;
+    }
+    in_.fail(fmt::format("'{}' is no kernel: gaussian or matern32", text));
+  }
+
+  void check_field() {
+    if (!(shape_.correlation > 0.0))
+      in_.fail("a field needs its correlation length, above 0: correlation 40mm");
+    if (!shape_.amount.drawn.empty() || !(shape_.amount.value > 0.0))
+      in_.fail("the amount of a field is its standard deviation, a number above 0");
+    if (shape_.factor) in_.fail("a field takes no factor of another axis");
   }
 
   double position(const char* what) {

@@ -22,7 +22,7 @@ const std::map<std::string, Room>& rooms() {
       {"trials", {7}},
       {"calibration", {8, {"identify", "design", "compensate"}}},
       {"studies", {8, {"samples"}}},
-      {"app", {9, {"job", "view", "command"}}},
+      {"app", {9, {"job", "study", "view", "command"}}},
   };
   return kRooms;
 }

@@ -1,0 +1,54 @@
+// Characteristics of a part as functions of the weights of a draw, to first order.
+//
+// Model    : point i moves by x_i = nominal_i + sum_j g_ij w_j along its normal. A characteristic
+//            is one of
+//              a sum          c + sum_j g_j w_j
+//              a range        max_i x_i - min_i x_i over the points of a form, after the fit has
+//                             been taken out of the gains (centred(): x less its least-squares
+//                             combination of the element's own motions)
+// Units    : weights mm and rad; values as the gains make them (um, urad: see `unit`)
+// Shape    : columns are those of a FactorSet
+// Errors   : none
+// Accuracy : first order in the errors; see engine_controls.hpp
+// Source   : Bossoni 2010, section 3.9; first order of least-squares fits
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace frustum::studies {
+
+struct LinearSum {
+  double constant = 0.0;
+  Eigen::VectorXd gains{};  // by column
+};
+
+struct LinearRange {
+  Eigen::VectorXd nominal{};  // by point
+  Eigen::MatrixXd gains{};    // points x columns
+};
+
+struct LinearCharacteristic {
+  std::string name{};
+  std::string unit{};  // "um", "urad", "mm"
+  std::variant<LinearSum, LinearRange> of{};
+};
+
+struct LinearModel {
+  std::vector<LinearCharacteristic> characteristics{};
+};
+
+// Columns less their least-squares combination of the columns of `motions`: what a fit leaves.
+[[nodiscard]] Eigen::MatrixXd centred(const Eigen::MatrixXd& columns,
+                                      const Eigen::MatrixXd& motions);
+// 1, cos and sin of the angles: a circle that may move and change its size.
+[[nodiscard]] Eigen::MatrixXd circle_motions(const Eigen::VectorXd& angles);
+
+// The value of one characteristic, point by point: what the engine is compared with.
+[[nodiscard]] double value_of(const LinearCharacteristic& characteristic,
+                              const Eigen::VectorXd& weights);
+
+}  // namespace frustum::studies
