@@ -37,9 +37,8 @@ struct ConeRing {
 // The nominal machine's way round: places, normals and axis states.
 struct RingPath {
   std::vector<double> angles{};
-  std::vector<Vec3> tips{};     // workpiece frame: Z along the cone's axis turned by inclination
-  std::vector<Vec3> normals{};  // outward, table frame
-  std::vector<Vec3> tangents{};
+  std::vector<Vec3> normals{};   // outward, table frame
+  std::vector<Vec3> tangents{};  // the way of rising angles
   std::vector<kinematics::AxisState> axes{};
   kinematics::AxisSpans spans{};  // travelled by each axis
 };
