@@ -15,6 +15,9 @@ find_package(ZLIB REQUIRED)                   # ZLIB::ZLIB
 find_package(pugixml 1.12 REQUIRED)            # pugixml::pugixml
 find_package(OpenMesh CONFIG REQUIRED)        # OpenMeshCore
 find_package(embree 3.13 REQUIRED)            # embree
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5)  # PkgConfig::HDF5, whose CMake module needs C
+find_package(MPI COMPONENTS CXX)              # MPI::MPI_CXX, where there is one: studies on a cluster
 find_path(FRUSTUM_RANDOM123_INCLUDE Random123/philox.h REQUIRED)
 
 if(FRUSTUM_WITH_CGAL)

@@ -18,6 +18,9 @@ endforeach()
 if(TARGET frustum)
   install(TARGETS frustum RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 endif()
+if(TARGET frustum_mpi) # what the program loads when mpirun has started it
+  install(TARGETS frustum_mpi LIBRARY DESTINATION lib/frustum)
+endif()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/machines/" DESTINATION "${FRUSTUM_INSTALL_MACHINES}")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/NOTICE"
         DESTINATION "${CMAKE_INSTALL_DOCDIR}")

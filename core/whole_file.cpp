@@ -1,5 +1,6 @@
 #include "core/whole_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -40,8 +41,11 @@ std::optional<PartFile> open_part(const fs::path& target) {
   return std::nullopt;
 }
 
-bool write_bytes(File file, std::string_view bytes) {
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+bool write_bytes(File file, std::string_view bytes, bool synced = false) {
+  bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+  if (written && synced) {
+    written = std::fflush(file.get()) == 0 && ::fsync(::fileno(file.get())) == 0;
+  }
   const int reason = errno;
   // Closing writes what is buffered, so its result counts too.
   const bool closed = std::fclose(file.release()) == 0;
@@ -115,21 +119,45 @@ std::optional<Diagnostic> unwritable(const fs::path& path) {
   return cannot_write(path, std::strerror(errno));
 }
 
-Result<fs::path> write_whole_file(const fs::path& path, std::string_view bytes) {
+namespace {
+
+// The entry of a file in its folder; file systems that cannot are passed over.
+void sync_folder_of(const fs::path& path) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+Result<fs::path> write_beside(const fs::path& path, std::string_view bytes, bool synced) {
   std::error_code failure;
   if (fs::is_directory(path, failure)) return cannot_write(path, "it is a folder");
   if (is_device(path)) return write_through(path, bytes);
   auto part = open_part(path);
   if (!part) return cannot_write(path, std::strerror(errno));
-  const bool written = write_bytes(std::move(part->file), bytes);
+  const bool written = write_bytes(std::move(part->file), bytes, synced);
   const int reason = errno;
   if (written) {
     fs::rename(part->path, path, failure);
-    if (!failure) return path;
+    if (!failure) {
+      if (synced) sync_folder_of(path);
+      return path;
+    }
   }
   const std::string why = written ? failure.message() : std::strerror(reason);
   fs::remove(part->path, failure);
   return cannot_write(path, why);
+}
+
+}  // namespace
+
+Result<fs::path> write_whole_file(const fs::path& path, std::string_view bytes) {
+  return write_beside(path, bytes, false);
+}
+
+Result<fs::path> write_synced_file(const fs::path& path, std::string_view bytes) {
+  return write_beside(path, bytes, true);
 }
 
 }  // namespace frustum

@@ -23,6 +23,10 @@ namespace frustum {
 // The folder must exist. Returns the path.
 [[nodiscard]] Result<std::filesystem::path> write_whole_file(const std::filesystem::path& path,
                                                              std::string_view bytes);
+// The same, and on the disk when it returns: whatever happens to the machine afterwards, the file
+// is there as a whole.
+[[nodiscard]] Result<std::filesystem::path> write_synced_file(const std::filesystem::path& path,
+                                                              std::string_view bytes);
 // Why it would fail, as far as can be known before the work: no folder, or none to write to.
 [[nodiscard]] std::optional<Diagnostic> unwritable(const std::filesystem::path& path);
 // What "the file cannot be written" looks like everywhere.

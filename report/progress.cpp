@@ -73,6 +73,11 @@ void Progress::begin(std::string step) {
   started_ = clock_();
 }
 
+void Progress::rename(std::string step) {
+  const std::lock_guard lock(mutex_);
+  if (is_running_) step_ = std::move(step);
+}
+
 void Progress::at(double share) {
   if (style_ == ProgressStyle::silent || !std::isfinite(share)) return;
   const std::lock_guard lock(mutex_);

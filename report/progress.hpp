@@ -43,6 +43,8 @@ class Progress {
 
   // Starts a step, ending the one before: "cutting", "measuring".
   void begin(std::string step);
+  // Another text for the step that goes on.
+  void rename(std::string step);
   void at(double share);
   // Ends the step; a bar is wiped, so that what follows starts on a clean line.
   void end();

@@ -62,19 +62,6 @@ std::vector<OperationTrace> traces_of(const Machine& machine, const TestPiece& p
   return traces;
 }
 
-Result<AxisSpans> error_spans(const TestPiece& piece, const std::vector<OperationTrace>& traces) {
-  if (piece.error_span.empty()) return AxisSpans{};
-  for (const OperationTrace& trace : traces) {
-    if (trace.name == piece.error_span) return trace.ranges;
-  }
-  Diagnostic failure =
-      error("unknown-operation"_id,
-            fmt::format("there is no operation '{}' with axis motion", piece.error_span),
-            "name one of the job's [[operation]] entries");
-  failure.key = "error_span.operation";
-  return failure;
-}
-
 Result<std::vector<ProgramFile>> hashed(const std::vector<std::string>& files) {
   std::vector<ProgramFile> known;
   for (const std::string& file : files) {
@@ -286,6 +273,19 @@ Result<Trial> run_trial(const Machine& machine, const GeometricErrors& errors,
   return run_trial(machine, errors, piece, *commanded, cmm, options);
 }
 
+Result<AxisSpans> error_spans(const TestPiece& piece, const CommandedPiece& commanded) {
+  if (piece.error_span.empty()) return AxisSpans{};
+  for (const OperationTrace& trace : commanded.operations) {
+    if (trace.name == piece.error_span) return trace.ranges;
+  }
+  Diagnostic failure =
+      error("unknown-operation"_id,
+            fmt::format("there is no operation '{}' with axis motion", piece.error_span),
+            "name one of the job's [[operation]] entries");
+  failure.key = "error_span.operation";
+  return failure;
+}
+
 Result<GeometricErrors> errors_for(const Machine& machine,
                                    std::span<const kinematics::ErrorEntry> errors,
                                    const TestPiece& piece) {
@@ -297,7 +297,7 @@ Result<GeometricErrors> errors_for(const Machine& machine,
 Result<GeometricErrors> errors_for(const Machine& machine,
                                    std::span<const kinematics::ErrorEntry> errors,
                                    const TestPiece& piece, const CommandedPiece& commanded) {
-  const auto spans = error_spans(piece, commanded.operations);
+  const auto spans = error_spans(piece, commanded);
   if (!spans) return spans.error();
   auto resolved = kinematics::resolve(machine, errors, *spans);
   if (resolved || piece.error_span.empty()) return resolved;

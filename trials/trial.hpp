@@ -114,6 +114,9 @@ struct CommandedPiece {
                                       const metrology::CmmModel& cmm,
                                       const TrialOptions& options = {});
 
+// What the operation that the piece's error_span names travels; nothing where it names none.
+[[nodiscard]] Result<kinematics::AxisSpans> error_spans(const programs::TestPiece& piece,
+                                                        const CommandedPiece& commanded);
 // The errors as this piece's program meets them: shapes without a span are over what the operation
 // that its error_span names travels.
 [[nodiscard]] Result<kinematics::GeometricErrors> errors_for(

@@ -266,7 +266,8 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
   if (const auto table = root.table_if("errors")) {
     written_errors = kinematics::read_errors(*table, find_error_file);
   }
-  const std::optional<ErrorDraw> draw = drawn_by(overrides.errors, read_draw(root));
+  std::optional<ErrorDraw> draw = drawn_by(overrides.errors, read_draw(root));
+  if (overrides.undrawn) draw.reset();
   double mesh_pitch = 0.0;
   bool report = true;
   std::vector<fs::path> exports;

@@ -49,6 +49,7 @@ struct Job {
 struct JobOverrides {
   ErrorWords errors{};
   std::optional<std::string> tool_radius_error{};
+  bool undrawn = false;  // errors stay the distributions that they are written as
 
   [[nodiscard]] bool any() const {
     return !errors.files.empty() || !errors.errors.empty() || errors.draw || tool_radius_error;

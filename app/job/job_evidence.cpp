@@ -69,6 +69,13 @@ Diagnostics add_hash(std::vector<report::HashedFile>& files, const std::string& 
   return {};
 }
 
+Diagnostics add_named_hashes(std::vector<report::HashedFile>& files, std::string_view text,
+                             const fs::path& document) {
+  FileHashes hashes(files);
+  hashes.add_named(text, document);
+  return hashes.problems();
+}
+
 Result<report::Evidence> evidence_of(const Job& job) {
   report::Evidence evidence;
   evidence.header = job.piece.plan.header;

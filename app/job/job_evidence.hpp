@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "app/job/job.hpp"
 #include "report/evidence.hpp"
@@ -22,5 +23,9 @@ void add_subprograms(report::Evidence& evidence, const trials::Trial& trial);
 // A pipe, which cannot be read once more, is left out.
 [[nodiscard]] Diagnostics add_hash(std::vector<report::HashedFile>& files, const std::string& role,
                                    const std::filesystem::path& file);
+// The files that the text of a document names, and what those name in turn.
+[[nodiscard]] Diagnostics add_named_hashes(std::vector<report::HashedFile>& files,
+                                           std::string_view text,
+                                           const std::filesystem::path& document);
 
 }  // namespace frustum::app

@@ -202,6 +202,13 @@ Result<Study> load_study(const fs::path& file) {
   auto document = TomlDocument::load(file);
   if (!document) return document.error();
   const TomlTable& root = document->root();
+  if (!root.has("part") && (root.has("job") || root.has("target"))) {
+    Diagnostic population =
+        error("not-a-study"_id, "this is a study of a population, not of measured parts",
+              "frustum study reads it; frustum identify wants [[part]] with name, job and measured");
+    population.file = file.string();
+    return population;
+  }
   if (!root.has("part") && root.has("program") && root.has("machine")) {
     Diagnostic no_study = error("not-a-study"_id, "this is a job, not a study",
                                 "a study names jobs and what was measured of them: [[part]] with "

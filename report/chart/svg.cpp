@@ -47,6 +47,23 @@ void SvgDrawing::polyline(const std::vector<SvgPoint>& points, std::string_view 
   if (!path.empty()) html_ += fmt::format("<path{} d=\"{}\"/>\n", class_attribute(classes), path);
 }
 
+void SvgDrawing::rectangle(SvgPoint corner, SvgPoint opposite, std::string_view classes,
+                           std::string_view fill) {
+  const std::string own = fill.empty() ? "" : fmt::format(" style=\"fill:{}\"", fill);
+  html_ += fmt::format(
+      "<rect{}{} x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n", class_attribute(classes), own,
+      pixels(std::min(corner.x, opposite.x)), pixels(std::min(corner.y, opposite.y)),
+      pixels(std::abs(opposite.x - corner.x)), pixels(std::abs(opposite.y - corner.y)));
+}
+
+void SvgDrawing::area(const std::vector<SvgPoint>& points, std::string_view classes) {
+  std::string path;
+  for (const SvgPoint& p : points) {
+    path += fmt::format("{}{} {}", path.empty() ? 'M' : 'L', pixels(p.x), pixels(p.y));
+  }
+  if (!path.empty()) html_ += fmt::format("<path{} d=\"{}Z\"/>\n", class_attribute(classes), path);
+}
+
 void SvgDrawing::text(SvgPoint at, std::string_view content, SvgAnchor anchor,
                       std::string_view classes) {
   constexpr std::array<std::string_view, 3> kAnchors{"start", "middle", "end"};

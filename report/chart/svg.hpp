@@ -26,6 +26,11 @@ class SvgDrawing {
   void line(SvgPoint from, SvgPoint to, std::string_view classes);
   void circle(SvgPoint centre, double radius, std::string_view classes);
   void polyline(const std::vector<SvgPoint>& points, std::string_view classes);
+  // `fill`: a colour of its own, "#rrggbb"; empty: that of its classes.
+  void rectangle(SvgPoint corner, SvgPoint opposite, std::string_view classes,
+                 std::string_view fill = {});
+  // The area within the points.
+  void area(const std::vector<SvgPoint>& points, std::string_view classes);
   void text(SvgPoint at, std::string_view content, SvgAnchor anchor = SvgAnchor::middle,
             std::string_view classes = {});
   // Upward along the y axis.

@@ -21,8 +21,8 @@ const std::map<std::string, Room>& rooms() {
       {"report", {6, {"html", "chart", "picture", "page", "exchange", "sheet"}}},
       {"trials", {7}},
       {"calibration", {8, {"identify", "design", "compensate"}}},
-      {"studies", {8}},
-      {"app", {9, {"job", "view", "command"}}},
+      {"studies", {8, {"samples"}}},
+      {"app", {9, {"job", "study", "view", "command"}}},
   };
   return kRooms;
 }

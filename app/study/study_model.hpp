@@ -1,0 +1,75 @@
+// What machines of a study make: from the random numbers of a draw to the values of all
+// characteristics, by whole trials (full) or to first order in the errors (linear).
+//
+// Units  : values and points um, urad; weights mm, rad
+// Shape  : one outcome a draw; parallel over draws, the same for any number of threads
+// Errors : a draw that fails has its message and no values; the others go on
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/study/study_file.hpp"
+#include "core/result.hpp"
+#include "studies/factors.hpp"
+
+namespace frustum::app {
+
+struct DrawnMachine {
+  std::uint32_t draw = 0;
+  std::vector<double> values{};  // of all variables of the factors
+};
+
+struct DrawOutcome {
+  std::vector<double> values{};  // by characteristic; empty: the draw failed
+  std::vector<double> points{};  // along the planned normals; where they are asked for
+  double largest_move = 0.0;     // um, of a point; linear alone
+  std::string failure{};
+};
+
+struct EvaluationRequest {
+  double scale = 1.0;  // on everything that is drawn
+  bool points = false;
+};
+
+// A characteristic to first order in the weights.
+struct LinearView {
+  Eigen::MatrixXd gains{};  // of its deviations, as its fit leaves them; a column a weight
+  // Values for rows of weights, one row a draw.
+  std::function<std::vector<double>(std::span<const double> weights)> values{};
+};
+
+class StudyModel {
+ public:
+  virtual ~StudyModel() = default;
+
+  [[nodiscard]] virtual const studies::FactorSet& factors() const = 0;
+  [[nodiscard]] virtual std::size_t point_count() const = 0;
+  // Of the points that decide: um per mm or rad of the columns' weights.
+  [[nodiscard]] virtual const Eigen::MatrixXd& gains() const = 0;
+  // Why the linear engine cannot stand whatever its controls say; empty: it may.
+  [[nodiscard]] virtual std::string against_linear() const = 0;
+  // Nothing where the characteristic is no range or length of what moves in proportion.
+  [[nodiscard]] virtual std::optional<LinearView> linear_view(std::size_t characteristic) const = 0;
+  // Standard uncertainty of a measured characteristic by the job's CMM; 0: none is stated.
+  [[nodiscard]] virtual double measuring_uncertainty(std::size_t characteristic) const = 0;
+
+  // SHA-256 of files with subprograms that the program has opened.
+  [[nodiscard]] virtual std::vector<std::string> program_hashes() const { return {}; }
+
+  [[nodiscard]] virtual std::vector<DrawOutcome> full(std::span<const DrawnMachine> draws,
+                                                      const EvaluationRequest& request) const = 0;
+  [[nodiscard]] virtual std::vector<DrawOutcome> linear(std::span<const DrawnMachine> draws,
+                                                        const EvaluationRequest& request) const = 0;
+};
+
+// With everything that is done once: the nominal trial, the gains. Both outlive the model.
+[[nodiscard]] Result<std::unique_ptr<StudyModel>> make_model(const StudyFile& study);
+
+}  // namespace frustum::app

@@ -1,0 +1,24 @@
+// Shares of errors in the scatter of a characteristic, and the allocation of their tolerances.
+//
+// Model    : studies/shares.hpp and allocation.hpp. Indices by the linear engine where it stands,
+//            else by whole trials of fewer draws
+// Units    : um, urad
+// Shape    : a result for the characteristic that is asked for
+// Errors   : groups whose patterns match nothing, or that share an error
+// Accuracy : standard errors are given
+// Source   : ours
+#pragma once
+
+#include "app/study/sample_columns.hpp"
+#include "app/study/study_model.hpp"
+#include "studies/study_result.hpp"
+
+namespace frustum::app {
+
+[[nodiscard]] Result<std::vector<studies::FactorGroup>> share_groups(const StudyFile& study,
+                                                                     const StudyModel& model);
+// Fills shares and allocation, as far as they are asked for.
+[[nodiscard]] Diagnostics add_shares(const StudyFile& study, const StudyModel& model,
+                                     const SampleColumns& samples, studies::StudyResult& result);
+
+}  // namespace frustum::app

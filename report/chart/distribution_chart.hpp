@@ -1,0 +1,36 @@
+// How values are distributed: boxes whose whiskers reach the smallest and largest value, and the
+// empirical distribution function with its band.
+//
+// Units: those of the values, which the titles name. Errors: none; nothing is drawn of no values.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace frustum::report {
+
+struct BoxRow {
+  std::string label{};
+  double min = 0.0, low = 0.0, middle = 0.0, high = 0.0, max = 0.0;  // low, high: quartiles
+  std::optional<double> limit{};
+};
+
+// A <figure> of boxes along one scale.
+[[nodiscard]] std::string box_figure(const std::string& title, const std::string& scale_title,
+                                     std::span<const BoxRow> rows);
+
+// The share of values that are not larger: at each value its p; as many points as are worth drawing.
+struct DistributionLine {
+  std::vector<double> value{};  // ascending
+  std::vector<double> p{};
+  double half_width = 0.0;  // of the band
+  // One for a size, two for deviations of either sign.
+  std::vector<double> limits{};
+};
+[[nodiscard]] std::string distribution_figure(const std::string& title,
+                                              const std::string& scale_title,
+                                              const DistributionLine& line);
+
+}  // namespace frustum::report

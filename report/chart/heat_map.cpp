@@ -1,0 +1,62 @@
+#include "report/chart/heat_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "report/chart/svg.hpp"
+#include "report/html/html_text.hpp"
+
+namespace frustum::report {
+namespace {
+
+// From light to dark of one colour, which grey prints in the same order.
+std::string shade(double share) {
+  constexpr std::array<std::array<double, 3>, 2> kEnds{
+      {{232.0, 240.0, 247.0}, {16.0, 62.0, 112.0}}};
+  const auto channel = [&](std::size_t i) {
+    return std::lround(kEnds[0].at(i) + share * (kEnds[1].at(i) - kEnds[0].at(i)));
+  };
+  return fmt::format("#{:02x}{:02x}{:02x}", channel(0), channel(1), channel(2));
+}
+
+}  // namespace
+
+std::string heat_map_figure(const HeatMap& map) {
+  double low = 1e300, high = -1e300;
+  for (const auto& value : map.values) {
+    if (!value) continue;
+    low = std::min(low, *value);
+    high = std::max(high, *value);
+  }
+  constexpr double kLeft = 150.0, kTop = 46.0, kRow = 44.0;
+  const double width = 900.0;
+  const double cell =
+      (width - kLeft - 16.0) / static_cast<double>(std::max<std::size_t>(map.columns.size(), 1));
+  const double height = kTop + kRow * static_cast<double>(map.rows.size()) + 8.0;
+  SvgDrawing drawing(width, height, map.title);
+  drawing.text({kLeft + 0.5 * (width - kLeft), 14.0}, map.column_title);
+  drawing.text({kLeft - 10.0, 14.0}, map.row_title, SvgAnchor::end);
+  for (std::size_t k = 0; k < map.columns.size(); ++k) {
+    drawing.text({kLeft + (static_cast<double>(k) + 0.5) * cell, 36.0}, map.columns[k]);
+  }
+  for (std::size_t i = 0; i < map.rows.size(); ++i) {
+    const double y = kTop + kRow * static_cast<double>(i);
+    drawing.text({kLeft - 10.0, y + 0.5 * kRow + 4.0}, map.rows[i], SvgAnchor::end);
+    for (std::size_t k = 0; k < map.columns.size(); ++k) {
+      const auto& value = map.values[i * map.columns.size() + k];
+      if (!value) continue;
+      const double share = high > low ? (*value - low) / (high - low) : 0.0;
+      const double x = kLeft + static_cast<double>(k) * cell;
+      drawing.rectangle({x, y}, {x + cell, y + kRow}, "cell", shade(share));
+      drawing.text({x + 0.5 * cell, y + 0.5 * kRow + 4.0}, fmt::format("{:.4g}", *value),
+                   SvgAnchor::middle, share > 0.45 ? "on-dark" : "on-light");
+    }
+  }
+  return fmt::format("<figure class=\"axes\"><figcaption><b>{}</b></figcaption>\n{}</figure>\n",
+                     html_text(map.title), drawing.html());
+}
+
+}  // namespace frustum::report

@@ -1,0 +1,21 @@
+// A table of values as coloured cells, with each value written in its cell.
+//
+// Units: those of the values. Errors: none; a cell without a value stays empty.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace frustum::report {
+
+struct HeatMap {
+  std::string title{};
+  std::string row_title{}, column_title{};
+  std::vector<std::string> rows{}, columns{};
+  std::vector<std::optional<double>> values{};  // row by row
+};
+
+[[nodiscard]] std::string heat_map_figure(const HeatMap& map);
+
+}  // namespace frustum::report

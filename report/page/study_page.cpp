@@ -1,0 +1,191 @@
+#include "report/page/study_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <span>
+
+#include "core/base64.hpp"
+#include "report/exchange/csv_field.hpp"
+#include "report/html/html_text.hpp"
+#include "report/html/page_bundle.hpp"
+#include "report/number_text.hpp"
+#include "report/page/page_parts.hpp"
+
+namespace frustum::report {
+namespace {
+
+// A link to the numbers of a figure, which are in the page itself.
+std::string csv_link(const std::string& name, const std::string& csv) {
+  const std::span bytes(reinterpret_cast<const unsigned char*>(csv.data()), csv.size());
+  return fmt::format(
+      "<p class=\"csv\"><a download=\"{0}\" href=\"data:text/csv;base64,{1}\">{0}</a></p>\n",
+      html_text(name), base64(bytes));
+}
+
+std::string file_name(std::string text) {
+  for (char& c : text) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (!plain && c != '.' && c != '_') c = '-';
+  }
+  return text;
+}
+
+std::string titled(const std::string& name, const std::string& unit) {
+  return name + ", " + unit_symbol(unit);
+}
+
+std::string table_section(const StudyPage& page) {
+  Table table("Characteristics",
+              {"characteristic", ">5 %", ">median (95 % interval)", ">95 %", ">limit",
+               ">conforming (95 % interval)"},
+              TableStyle::cards);
+  for (const StudyPageCharacteristic& c : page.characteristics) {
+    std::vector<std::string> cells{html_text(titled(c.name, c.unit))};
+    for (const std::string& text : c.row) cells.push_back(html_text(text));
+    table.row(cells);
+  }
+  std::string content = table.html();
+  if (!page.all_conform.empty()) {
+    content += fmt::format("<p class=\"note\">Parts within all limits: {}.</p>\n",
+                           html_text(page.all_conform));
+  }
+  if (!page.remarks.empty()) {
+    content += "<ul class=\"remarks\">";
+    for (const std::string& remark : page.remarks) {
+      content += fmt::format("<li class=\"warning\">{}</li>", html_text(remark));
+    }
+    content += "</ul>\n";
+  }
+  return section("characteristics", "What the machines make", content);
+}
+
+// Boxes of one unit share a scale.
+std::string box_section(const StudyPage& page) {
+  std::map<std::string, std::vector<BoxRow>> by_unit;
+  std::string csv = "characteristic,unit,min,q1,median,q3,max,limit\n";
+  for (const StudyPageCharacteristic& c : page.characteristics) {
+    by_unit[c.unit].push_back(c.box);
+    csv += fmt::format("{},{},{},{},{},{},{},{}\n", csv_field(c.name), c.unit, c.box.min, c.box.low,
+                       c.box.middle, c.box.high, c.box.max,
+                       c.box.limit ? fmt::format("{}", *c.box.limit) : "");
+  }
+  std::string content;
+  for (const auto& [unit, rows] : by_unit) {
+    content +=
+        box_figure("Smallest, quartiles, largest, " + unit_symbol(unit), unit_symbol(unit), rows);
+  }
+  content += csv_link("boxes.csv", csv);
+  content +=
+      "<p class=\"note\">Each box holds the middle half of the machines, its bar is the median; "
+      "the "
+      "whiskers reach the smallest and the largest value. Dashed: the limit, where it is near.</p>";
+  return section("boxes", "Box plots", content);
+}
+
+std::string distribution_section(const StudyPage& page) {
+  std::string content;
+  for (const StudyPageCharacteristic& c : page.characteristics) {
+    if (c.distribution.value.empty()) continue;
+    content += distribution_figure(c.name, titled(c.name, c.unit), c.distribution);
+    std::string csv = fmt::format("value_{},share,low,high\n", c.unit);
+    for (std::size_t i = 0; i < c.distribution.value.size(); ++i) {
+      const double p = c.distribution.p[i], w = c.distribution.half_width;
+      csv += fmt::format("{},{},{},{}\n", c.distribution.value[i], p, std::max(0.0, p - w),
+                         std::min(1.0, p + w));
+    }
+    content += csv_link(file_name(c.name) + ".distribution.csv", csv);
+  }
+  content +=
+      "<p class=\"note\">The share of machines whose value is not larger. With 95 % confidence the "
+      "whole line of all machines is in the band (Dvoretzky, Kiefer, Wolfowitz).</p>";
+  return section("distributions", "Distributions", content);
+}
+
+std::string risk_section(const StudyPage& page) {
+  std::string content;
+  for (const StudyPageCharacteristic& c : page.characteristics) {
+    if (!c.risk) continue;
+    content += risk_figure(c.name, *c.risk);
+    std::string csv = "guard_U,consumer,producer\n";
+    for (std::size_t i = 0; i < c.risk->guard.size(); ++i) {
+      csv += fmt::format("{},{},{}\n", c.risk->guard[i], c.risk->consumer[i], c.risk->producer[i]);
+    }
+    content += csv_link(file_name(c.name) + ".risk.csv", csv);
+  }
+  if (content.empty()) return {};
+  return section("risks", "What a guard band costs", content);
+}
+
+std::string scatter_section(const StudyPage& page) {
+  if (!page.scatter) return {};
+  const auto& [along, up] = *page.scatter;
+  std::string csv = csv_field(along.title) + "," + csv_field(up.title) + "\n";
+  for (std::size_t i = 0; i < along.values.size(); ++i) {
+    csv += fmt::format("{},{}\n", along.values[i], up.values[i]);
+  }
+  return section("scatter", "Two characteristics of each machine",
+                 scatter_figure(up.title + " over " + along.title, along, up) +
+                     csv_link("scatter.csv", csv) +
+                     "<p class=\"note\">The first machines of the study. Dashed: limits.</p>");
+}
+
+std::string share_section(const StudyPage& page) {
+  if (page.shares.empty()) return {};
+  std::string csv = "errors,total,mean_square\n";
+  for (const TornadoRow& row : page.shares) {
+    csv += fmt::format("{},{},{}\n", csv_field(row.label), row.total, row.share);
+  }
+  return section("shares", "Which errors make it",
+                 tornado_figure("Errors of " + page.share_characteristic, page.shares) +
+                     csv_link("shares.csv", csv) +
+                     "<p class=\"note\">Total index: the share of the variance that would be left "
+                     "if all other errors were known. Share of the mean square: of the deviations "
+                     "of all points; these shares add up to 1.</p>");
+}
+
+std::string allocation_section(const StudyPage& page) {
+  if (page.allocation.empty()) return {};
+  Table table("Tolerances", {"errors", ">factor on their tolerances"});
+  for (const auto& [group, factor] : page.allocation) table.row({html_text(group), factor});
+  return section("allocation", "Tolerances that would do",
+                 table.html() + "<p class=\"note\">" + html_text(page.allocation_text) + "</p>\n");
+}
+
+std::string map_section(const StudyPage& page) {
+  if (page.maps.empty()) return {};
+  std::string content;
+  for (const HeatMap& map : page.maps) {
+    content += heat_map_figure(map);
+    std::string csv = csv_field(map.row_title) + "," + csv_field(map.column_title) + ",value\n";
+    for (std::size_t i = 0; i < map.rows.size(); ++i) {
+      for (std::size_t k = 0; k < map.columns.size(); ++k) {
+        const auto& value = map.values[i * map.columns.size() + k];
+        if (!value) continue;
+        csv += fmt::format("{},{},{}\n", csv_field(map.rows[i]), csv_field(map.columns[k]), *value);
+      }
+    }
+    content += csv_link(file_name(map.title) + ".csv", csv);
+  }
+  return section("maps", "Set-ups", content);
+}
+
+}  // namespace
+
+std::string study_html(const StudyPage& page) {
+  std::string body =
+      "<header><p class=\"brand\"><b>Frustum</b> Study of many machines</p>\n"
+      "<div class=\"top\"><h1>" +
+      html_text(page.title) + "</h1></div><dl class=\"facts\">";
+  for (const auto& [name, value] : page.facts) body += fact(html_text(name), html_text(value));
+  body += "</dl></header>\n<main>" + table_section(page) + box_section(page) +
+          distribution_section(page) + scatter_section(page) + risk_section(page) +
+          share_section(page) + allocation_section(page) + map_section(page);
+  body +=
+      "</main>\n<footer><p>Made by Frustum. The licences of the bundled packages are in the source "
+      "of this page.</p></footer>\n";
+  return filled_page(html_text(page.title), body, "{}");
+}
+
+}  // namespace frustum::report
