@@ -157,8 +157,8 @@ TEST(Trial, ReadsTheProgramAsTheControlOfTheMachineDoes) {
   EXPECT_EQ(commanded->warnings[0].id, "builder-word"_id);
   EXPECT_EQ(commanded->warnings[0].line, 6);
   const auto& samples = kinematics::block_ends(commanded->program);
-  EXPECT_NEAR(samples.back().axes[AxisLetter::X], 30.0, 1e-9);
-  EXPECT_NEAR(samples.back().axes[AxisLetter::Z], 110.0, 1e-9);
+  EXPECT_NEAR(samples.back().axes[kinematics::AxisLetter::X], 30.0, 1e-9);
+  EXPECT_NEAR(samples.back().axes[kinematics::AxisLetter::Z], 110.0, 1e-9);
 }
 
 TEST(Trial, NamesTheWordOfAMachineFileThatIsNone) {
