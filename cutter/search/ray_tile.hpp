@@ -8,7 +8,8 @@
 //            four corners prove it for all
 // Units    : mm along the rays; frame: workpiece
 // Errors   : none
-// Accuracy : bit for bit that of extend_swept_interval() for each ray (tests/cutter/ray_tile_test.cpp)
+// Accuracy : bit for bit that of extend_swept_interval() for each ray
+//            (tests/stock/ray_map_test.cpp)
 // Source   : ours
 #pragma once
 
