@@ -6,6 +6,7 @@
 #include <cassert>
 #include <charconv>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "studies/law.hpp"

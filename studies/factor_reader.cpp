@@ -90,8 +90,9 @@ std::optional<std::size_t> FactorReader::add_amount(Amount& amount, const std::s
     drawn.parts.push_back({at, factor.shift, factor.function});
     variables.push_back(at);
   }
+  set_.written_.push_back(set_.amounts_.size());
   set_.amounts_.push_back(std::move(drawn));
-  return set_.amounts_.size() - 1;
+  return set_.written_.back();
 }
 
 std::optional<kinematics::GeometricErrors> FactorReader::unit_of(const ErrorEntry& entry,
@@ -290,8 +291,8 @@ void FactorReader::join_factors() {
   };
   std::vector<std::size_t> owner(set_.variables_.size(), set_.factors_.size());
   const auto join = [&](std::size_t a, std::size_t b) {
-    const auto [first, second] = std::minmax(root(a), root(b));
-    parent[second] = first;
+    const std::size_t one = root(a), other = root(b);
+    parent[std::max(one, other)] = std::min(one, other);
   };
   for (std::size_t f = 0; f < set_.factors_.size(); ++f) {
     for (const std::size_t v : set_.factors_[f].variables) {

@@ -23,6 +23,12 @@ double DrawnAmount::operator()(std::span<const double> variables) const {
   return amount;
 }
 
+std::vector<std::uint64_t> FactorSet::streams() const {
+  std::vector<std::uint64_t> streams;
+  for (const Variable& v : variables_) streams.push_back(v.stream);
+  return streams;
+}
+
 void FactorSet::correlate(const Copula& copula, std::span<double> uniform_to_value) const {
   const auto n = static_cast<Eigen::Index>(copula.variables.size());
   Eigen::VectorXd z(n);
@@ -95,7 +101,7 @@ std::vector<kinematics::ErrorEntry> FactorSet::entries_at(std::span<const double
   std::size_t next = 0;
   const auto fix = [&](kinematics::Amount& amount) {
     if (amount.drawn.empty()) return;
-    amount.value = amounts_[next++](values);
+    amount.value = amounts_[written_[next++]](values);
     amount.drawn.clear();
   };
   for (kinematics::ErrorEntry& entry : entries) {

@@ -70,7 +70,9 @@ struct DrawnAmount {
     double shift = 0.0;
     kinematics::DrawnFactor::Function function = kinematics::DrawnFactor::Function::itself;
   };
-  std::string name{};  // "amounts/EXX/0", "phases/EXX/2", "peaks/..", "coefficients/EXX/0/1"
+  // "amounts/EXX/0", "phases/EXX/2", "peaks/..", "coefficients/EXX/0/1"; empty: a fixed amplitude
+  // whose phase is drawn.
+  std::string name{};
   UnitKind unit = UnitKind::none;
   double value = 1.0;
   std::vector<Part> parts{};
@@ -110,6 +112,8 @@ class FactorSet {
                                               const FactorOptions& options = {});
 
   [[nodiscard]] const std::vector<Variable>& variables() const { return variables_; }
+  // Their streams, as a Scheme takes them.
+  [[nodiscard]] std::vector<std::uint64_t> streams() const;
   [[nodiscard]] const std::vector<DrawnAmount>& amounts() const { return amounts_; }
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
   [[nodiscard]] const std::vector<Factor>& factors() const { return factors_; }
@@ -156,6 +160,7 @@ class FactorSet {
   std::vector<Copula> copulas_;
   std::vector<std::string> nonlinear_;
   std::vector<kinematics::ErrorEntry> entries_;
+  std::vector<std::size_t> written_;  // of amounts_, in the order of the entries' drawn amounts
   kinematics::AxisSpans spans_;
   kinematics::GeometricErrors fixed_;
   bool has_fixed_ = false;

@@ -24,8 +24,8 @@ struct alignas(64) LaneRow {
   std::array<T, kLanes> at{};
 };
 
-// A range's gains as they are screened: column k of `left` (a point after the other) by the lanes of
-// combination k. Combinations come in fours.
+// A range's gains as they are screened: combinations of the weights (`right`), then points as sums
+// of the combinations (`left`). Combinations and points come in fours.
 struct ScreenFactors {
   std::size_t points = 0;
   std::size_t columns = 0;

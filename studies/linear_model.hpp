@@ -15,9 +15,12 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "core/pose.hpp"
 
 namespace frustum::studies {
 
@@ -46,6 +49,18 @@ struct LinearModel {
                                       const Eigen::MatrixXd& motions);
 // 1, cos and sin of the angles: a circle that may move and change its size.
 [[nodiscard]] Eigen::MatrixXd circle_motions(const Eigen::VectorXd& angles);
+
+// How the points of a feature move along their normals when its element moves as a rigid body, and
+// when it changes its size: what a least-squares fit takes up to first order. Motions that do
+// nothing, or the same as others, do no harm.
+enum class ElementSize : std::uint8_t {
+  fixed,      // plane, line
+  radius,     // circle, cylinder, sphere: all points outward
+  half_angle  // cone: rotation of the generatrix about its point nearest to the centroid
+};
+[[nodiscard]] Eigen::MatrixXd element_motions(std::span<const Vec3> points,
+                                              std::span<const Vec3> normals, ElementSize size,
+                                              const Vec3& axis = Vec3::UnitZ());
 
 // The value of one characteristic, point by point: what the engine is compared with.
 [[nodiscard]] double value_of(const LinearCharacteristic& characteristic,

@@ -66,6 +66,8 @@ Result<std::vector<FactorGroup>> groups_named(
   for (const Factor& factor : set.factors()) {
     known.insert(known.end(), factor.entries.begin(), factor.entries.end());
   }
+  std::sort(known.begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
   // What a pattern asks of a shape: its kind and order, which a factor has in words.
   const auto shape_of = [](const Factor& factor) {
     kinematics::ErrorShape shape;
@@ -125,7 +127,8 @@ Result<std::vector<FactorGroup>> groups_named(
 
 MeanSquareShares mean_square_shares(const Eigen::MatrixXd& gains, const FactorSet& set,
                                     std::span<const FactorGroup> groups) {
-  const Eigen::MatrixXd covariance = set.weight_moments().covariance;
+  const WeightMoments moments = set.weight_moments();
+  const Eigen::MatrixXd second = moments.covariance + moments.mean * moments.mean.transpose();
   const Eigen::MatrixXd squares = gains.transpose() * gains;
   const auto points = static_cast<double>(gains.rows());
   MeanSquareShares result;
@@ -135,7 +138,7 @@ MeanSquareShares mean_square_shares(const Eigen::MatrixXd& gains, const FactorSe
       for (const std::size_t i : set.factors()[f].columns) {
         for (const std::size_t j : set.factors()[f].columns) {
           sum += squares(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
-                 covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) / points;
+                 second(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) / points;
         }
       }
     }

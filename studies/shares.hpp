@@ -1,8 +1,8 @@
 // Which errors make the scatter of a characteristic.
 //
 // Model    : mean-square shares, exact of a linear model: deviations of points x = G w, weights
-//            with a covariance block by block of the factors; the share of a factor is
-//              trace(G_f C_f G_f^T) / trace(G C G^T)
+//            with second moments M_f = E w_f w_f^T of each factor; the share of a factor is
+//              trace(G_f M_f G_f^T) / sum over all factors
 //            Sobol indices of any function of independent factors, by two independent sets of draws
 //            A and B, and A with one group of factors from B:
 //              first order  mean(f_B (f_AB - f_A)) / var       (Saltelli 2010)
@@ -46,7 +46,7 @@ struct FactorGroup {
     const std::map<std::string, std::vector<std::string>>& patterns);
 
 struct MeanSquareShares {
-  double mean_square = 0.0;      // of all points and draws, about the mean of the draws
+  double mean_square = 0.0;      // of all points and draws: the factors' own, added
   std::vector<double> shares{};  // by group; sum to 1
 };
 // Gains: points x columns of the set, in any unit.

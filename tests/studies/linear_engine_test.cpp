@@ -14,14 +14,13 @@ namespace frustum::studies {
 namespace {
 
 Scheme random_scheme(const FactorSet& set, SchemeKind kind = SchemeKind::random) {
-  std::vector<std::uint64_t> streams;
-  for (const Variable& v : set.variables()) streams.push_back(v.stream);
+  const std::vector<std::uint64_t> streams = set.streams();
   return *Scheme::make(kind, 1, streams);
 }
 
 TEST(LinearEngine, EqualsTheEvaluationOfEveryPoint) {
   for (const char* place : {"proposed/cone", "comparison/cylinder"}) {
-    const RingPopulation population = RingPopulation::of(place, 'A');
+    const RingPopulation& population = RingPopulation::of(place, 'A');
     const LinearEngine engine(population.set, population.model);
     constexpr std::uint32_t kDraws = 700;  // no multiple of the lanes
     const auto values = engine.evaluate(random_scheme(population.set), 1, 0, kDraws);
@@ -38,7 +37,7 @@ TEST(LinearEngine, EqualsTheEvaluationOfEveryPoint) {
 }
 
 TEST(LinearEngine, GivesTheSameBitsInAnyLaneBlockAndThreadWithAndWithoutAvx2) {
-  const RingPopulation population = RingPopulation::of("proposed/cone", 'R');
+  const RingPopulation& population = RingPopulation::of("proposed/cone", 'R');
   const LinearEngine engine(population.set, population.model);
   const LinearEngine plain(population.set, population.model, Lanes::plain);
   const Scheme scheme = random_scheme(population.set);
@@ -71,7 +70,7 @@ TEST(LinearEngine, GivesTheSameBitsInAnyLaneBlockAndThreadWithAndWithoutAvx2) {
 TEST(LinearEngineReference, ScreensHaveTheColumnsOfTheIndependentComputation) {
   for (const char* place :
        {"proposed/cone", "proposed/cylinder", "comparison/cone", "comparison/cylinder"}) {
-    const RingPopulation population = RingPopulation::of(place, 'A');
+    const RingPopulation& population = RingPopulation::of(place, 'A');
     const LinearEngine engine(population.set, population.model);
     EXPECT_EQ(engine.screen(0).columns,
               expected()["kernel"][place]["live_1e_6um"].get<std::size_t>());
@@ -86,7 +85,7 @@ TEST(LinearEngineReference, QuantilesAreThoseOfTheIndependentComputation) {
   for (const char* place :
        {"proposed/cone", "proposed/cylinder", "comparison/cone", "comparison/cylinder"}) {
     for (const char read : {'A', 'R'}) {
-      const RingPopulation population = RingPopulation::of(place, read);
+      const RingPopulation& population = RingPopulation::of(place, read);
       const LinearEngine engine(population.set, population.model);
       const auto values = engine.evaluate(random_scheme(population.set), 1, 0, draws);
       const Summary summary = summary_of(std::span(values).first(draws));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -65,8 +66,16 @@ struct RingPopulation {
   LinearModel model;
   Eigen::MatrixXd gains;  // um, centred
 
-  // "proposed/cone", 'R'
-  static RingPopulation of(const std::string& place, char read, double tool_length = 0.0) {
+  // "proposed/cone", 'R'; made once.
+  static const RingPopulation& of(const std::string& place, char read, double tool_length = 0.0) {
+    static std::map<std::string, RingPopulation> known;
+    const std::string key = place + read + std::to_string(tool_length);
+    const auto found = known.find(key);
+    if (found != known.end()) return found->second;
+    return known.emplace(key, made(place, read, tool_length)).first->second;
+  }
+
+  static RingPopulation made(const std::string& place, char read, double tool_length) {
     static const kinematics::Machine kMachine = machine_named("iwf-bc");
     ConeRing ring = ring_named(place.substr(0, place.find('/')));
     ring.tool_length = tool_length;

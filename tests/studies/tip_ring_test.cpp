@@ -11,7 +11,7 @@ const char* const kPlaces[] = {"proposed/cone", "proposed/cylinder", "comparison
 TEST(TipRingReference, FirstDrawsAreThoseOfTheIndependentComputation) {
   for (const char* place : kPlaces) {
     for (const char read : {'A', 'R'}) {
-      const RingPopulation population = RingPopulation::of(place, read);
+      const RingPopulation& population = RingPopulation::of(place, read);
       EXPECT_EQ(population.set.columns().size(), 154U);
       const nlohmann::json& numbers = expected()["cone"][place][std::string(1, read)];
       for (std::uint32_t d = 0; d < 8; ++d) {
@@ -31,7 +31,7 @@ TEST(TipRingReference, FirstDrawsAreThoseOfTheIndependentComputation) {
 
 // With a tool of 150 mm the errors of Z that are linear shift, and only half angles see it.
 TEST(TipRingReference, ALongToolShiftsHalfAnglesAlone) {
-  const RingPopulation population = RingPopulation::of("proposed/cone", 'A', 150.0);
+  const RingPopulation& population = RingPopulation::of("proposed/cone", 'A', 150.0);
   const double half_angles[] = {-61.48, -32.26, 5.48};
   for (std::uint32_t d = 0; d < 3; ++d) {
     const Eigen::VectorXd w = population.weights(1, d);
