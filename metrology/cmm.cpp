@@ -139,13 +139,6 @@ class Probing {
   std::vector<std::optional<Diagnostic>> collisions_;
 };
 
-// True when probing along the planned lines would show: an oblique section of radius r is out of
-// round by r t^2 / 2, which is 0.25 nm for 50 mm and 1e-4 rad.
-bool lies_askew(const Pose& planned_from_found) {
-  return (planned_from_found.rotation - Mat3::Identity()).norm() > 1e-4 ||
-         planned_from_found.translation.norm() > 0.01;
-}
-
 Diagnostic at(const FeaturePoints& points, Diagnostic d) {
   d.file = points.file;
   d.line = points.line;
@@ -188,6 +181,13 @@ Diagnostic unknown_feature(const InspectionPlan& plan, const FeaturePoints& poin
 }
 
 }  // namespace
+
+// An oblique section of radius r is out of round by r t^2 / 2, which is 0.25 nm for 50 mm and 1e-4
+// rad.
+bool lies_askew(const Pose& planned_from_found) {
+  return (planned_from_found.rotation - Mat3::Identity()).norm() > 1e-4 ||
+         planned_from_found.translation.norm() > 0.01;
+}
 
 Result<Measurement> measure(const InspectionPlan& plan, SurfaceProbeRef part, const CmmModel& cmm,
                             NoErrors mean) {

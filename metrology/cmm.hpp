@@ -28,6 +28,10 @@
 
 namespace frustum::metrology {
 
+// Whether a part whose datum system is found there is measured once more, in that system: probing
+// along the planned lines would show.
+[[nodiscard]] bool lies_askew(const Pose& planned_from_found);
+
 [[nodiscard]] Result<Measurement> measure(const InspectionPlan& plan, SurfaceProbeRef part,
                                           const CmmModel& cmm = {},
                                           NoErrors mean = NoErrors::ideal);

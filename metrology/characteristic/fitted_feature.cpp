@@ -42,11 +42,15 @@ Result<Fit<Element>> fit_touches(const PlannedFeature& planned, std::span<const 
   return fit;
 }
 
-Result<Fit<Element>> fit_planned(const PlannedFeature& planned, std::span<const Vec3> centres) {
+Result<Fit<Element>> fit_planned(const PlannedFeature& planned, std::span<const Vec3> centres,
+                                 double ball_radius, FitStart start) {
   if (planned.kind == FeatureKind::point) return fit_touches(planned, centres);
   FitOptions options;
   options.expected = nominal_element(planned);
-  return fit_element(kElements.at(static_cast<std::size_t>(planned.kind)), centres, options);
+  const ElementKind kind = kElements.at(static_cast<std::size_t>(planned.kind));
+  if (start == FitStart::anywhere) return fit_element(kind, centres, options);
+  options.expected = offset(*options.expected, material_sign(planned) * ball_radius);
+  return fit_nearby(kind, centres, options);
 }
 
 std::vector<double> numbers(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
@@ -68,8 +72,9 @@ std::vector<Vec3> FittedFeature::all_points() const {
 }
 
 Result<FittedFeature> fit_feature(const PlannedFeature& planned, const std::vector<Vec3>& centres,
-                                  const std::vector<std::size_t>& sections, double ball_radius) {
-  auto fit = fit_planned(planned, centres);
+                                  const std::vector<std::size_t>& sections, double ball_radius,
+                                  FitStart start) {
+  auto fit = fit_planned(planned, centres, ball_radius, start);
   if (!fit) {
     Diagnostics failure = std::move(fit).error();
     for (Diagnostic& d : failure) {

@@ -31,11 +31,16 @@ struct FittedFeature {
   [[nodiscard]] std::vector<Vec3> all_points() const;
 };
 
+// Where fits begin: anywhere, or at the planned element, which the points are near. The fit is the
+// same.
+enum class FitStart { anywhere, plan };
+
 // `centres` are ball centres, or surface points when ball_radius is 0; sections go with them.
 [[nodiscard]] Result<FittedFeature> fit_feature(const PlannedFeature& planned,
                                                 const std::vector<Vec3>& centres,
                                                 const std::vector<std::size_t>& sections,
-                                                double ball_radius);
+                                                double ball_radius,
+                                                FitStart start = FitStart::anywhere);
 
 // The same from a fit to the centres that is there already.
 [[nodiscard]] Result<FittedFeature> feature_from(const PlannedFeature& planned, Fit<Element> fit,

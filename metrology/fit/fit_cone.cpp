@@ -60,10 +60,20 @@ Result<Minimum> solve_cone(const NormalisedPoints& local) {
   return axial_minimum(local, kConeWording, initial_cones, searched_cone);
 }
 
+Result<Minimum> solve_cone_nearby(const NormalisedPoints& local) {
+  auto found = nearby_minimum(local, kConeWording);
+  return found ? Result<Minimum>(*std::move(found)) : solve_cone(local);
+}
+
 }  // namespace
 
 Result<Fit<Cone>> fit_cone(std::span<const Vec3> points, const FitOptions& options) {
   return round_fit<Cone>(points, options, {ElementKind::cone, kConeWording.what, 6}, solve_cone);
+}
+
+Result<Fit<Cone>> fit_cone_nearby(std::span<const Vec3> points, const FitOptions& options) {
+  return round_fit<Cone>(points, options, {ElementKind::cone, kConeWording.what, 6},
+                         solve_cone_nearby);
 }
 
 }  // namespace frustum::metrology

@@ -47,11 +47,21 @@ Result<Minimum> solve_cylinder(const NormalisedPoints& local) {
   return axial_minimum(local, kCylinderWording, initial_cylinders, searched_cylinder);
 }
 
+Result<Minimum> solve_cylinder_nearby(const NormalisedPoints& local) {
+  auto found = nearby_minimum(local, kCylinderWording);
+  return found ? Result<Minimum>(*std::move(found)) : solve_cylinder(local);
+}
+
 }  // namespace
 
 Result<Fit<Cylinder>> fit_cylinder(std::span<const Vec3> points, const FitOptions& options) {
   return round_fit<Cylinder>(points, options, {ElementKind::cylinder, kCylinderWording.what, 5},
                              solve_cylinder);
+}
+
+Result<Fit<Cylinder>> fit_cylinder_nearby(std::span<const Vec3> points, const FitOptions& options) {
+  return round_fit<Cylinder>(points, options, {ElementKind::cylinder, kCylinderWording.what, 5},
+                             solve_cylinder_nearby);
 }
 
 }  // namespace frustum::metrology

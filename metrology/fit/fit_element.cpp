@@ -43,6 +43,13 @@ Result<Fit<Element>> fit_element(ElementKind kind, std::span<const Vec3> points,
   return widened(fit_torus(points, options));
 }
 
+Result<Fit<Element>> fit_nearby(ElementKind kind, std::span<const Vec3> points,
+                                const FitOptions& options) {
+  if (kind == ElementKind::cylinder) return widened(fit_cylinder_nearby(points, options));
+  if (kind == ElementKind::cone) return widened(fit_cone_nearby(points, options));
+  return fit_element(kind, points, options);
+}
+
 Result<Fit<Element>> fit_element(std::string_view name, std::span<const Vec3> points,
                                  const FitOptions& options) {
   if (name == "line2d") return widened(fit_line_2d(points, options));

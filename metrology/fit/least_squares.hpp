@@ -83,11 +83,20 @@ struct FitOptions {
                                                  const FitOptions& options = {});
 [[nodiscard]] Result<Fit<Cone>> fit_cone(std::span<const Vec3> points,
                                          const FitOptions& options = {});
+// The same of points that are known to be near options.expected, as those of a feature are near the
+// plan: the search is left out. Points that are not near are searched all the same.
+[[nodiscard]] Result<Fit<Cylinder>> fit_cylinder_nearby(std::span<const Vec3> points,
+                                                        const FitOptions& options);
+[[nodiscard]] Result<Fit<Cone>> fit_cone_nearby(std::span<const Vec3> points,
+                                                const FitOptions& options);
 [[nodiscard]] Result<Fit<Torus>> fit_torus(std::span<const Vec3> points,
                                            const FitOptions& options = {});
 
 [[nodiscard]] Result<Fit<Element>> fit_element(ElementKind kind, std::span<const Vec3> points,
                                                const FitOptions& options = {});
+// By the nearby fits where there are such.
+[[nodiscard]] Result<Fit<Element>> fit_nearby(ElementKind kind, std::span<const Vec3> points,
+                                              const FitOptions& options);
 // By the name a user types: those of kElementNames, "line2d" and "circle2d".
 [[nodiscard]] Result<Fit<Element>> fit_element(std::string_view name, std::span<const Vec3> points,
                                                const FitOptions& options = {});

@@ -171,6 +171,22 @@ double redundancy(const NormalisedPoints& local, const Minimum& found) {
   return static_cast<double>(local.count()) - static_cast<double>(found.free_parameters);
 }
 
+std::optional<Minimum> nearby_minimum(const NormalisedPoints& local, const Wording& wording) {
+  const PrincipalDirections principal = principal_directions(local);
+  if (!local.expected || coplanar(local, principal, wording.what)) return std::nullopt;
+  const PointBlocks all = PointBlocks::of(local);
+  GaussNewton solver(constrained(shifted(*local.expected, Vec3::Zero()), local.constraints), all,
+                     local.constraints);
+  solver.descend(6, 1e-2);
+  const double enough = 1e-6 * principal.spread[2] * principal.spread[2];
+  if (implausible(solver.element()) || !(solver.cost() < enough * static_cast<double>(all.count))) {
+    return std::nullopt;
+  }
+  auto found = settled(std::move(solver), all, local.constraints, wording);
+  if (!found || is_doubtful(local, found)) return std::nullopt;
+  return *std::move(found);
+}
+
 Result<Minimum> axial_minimum(const NormalisedPoints& local, const Wording& wording,
                               AxialStarts initial_estimates, AxialStarts all) {
   const PrincipalDirections principal = principal_directions(local);

@@ -82,6 +82,11 @@ using AxialStarts = std::vector<Element> (*)(const AxialPoints& points);
 [[nodiscard]] Result<Minimum> axial_minimum(const NormalisedPoints& local, const Wording& wording,
                                             AxialStarts initial_estimates, AxialStarts all);
 
+// The minimum below the element that is expected, where the points are so near to it that there is
+// nothing to search for, by the measure of at_once.
+[[nodiscard]] std::optional<Minimum> nearby_minimum(const NormalisedPoints& local,
+                                                    const Wording& wording);
+
 // What `solve` finds; where it finds nothing, and would without the constraints, what they
 // contradict.
 using Solve = std::function<Result<Minimum>(const NormalisedPoints& local)>;

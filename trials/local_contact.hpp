@@ -1,0 +1,47 @@
+// A contact that the lanes could not prove: one machine's cutter is swept near by.
+//
+// Model    : the pieces of motion around the contact, as chords, and the probe's ball on what they
+//            leave. It is the contact on the whole part if it is not made by an end of these
+//            pieces, and if all other parts of the path keep away (follow_plan.hpp)
+// Units    : mm; frame: workpiece
+// Errors   : nothing where that is not shown
+// Accuracy : that of stock/solid/workpiece.hpp for a path within the bound
+// Source   : ours
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "cutter/body/cutter.hpp"
+#include "kinematics/model/tool_pose.hpp"
+#include "metrology/probing/ball_contact.hpp"
+#include "trials/lane_contact.hpp"
+
+namespace frustum::trials {
+
+// Where the middle machine's contact is: the piece of motion, and how it was.
+struct ContactOrigin {
+  std::array<std::uint32_t, 3> node{};
+  double tau = 0.0;
+  kinematics::ToolPose pose{};
+  Vec3 touched = Vec3::Zero();
+};
+
+using PosesOfPiece = std::array<kinematics::ToolPose, 3>;
+
+struct LocalSurroundings {
+  std::span<const PosesOfPiece> pieces{};    // of all ranges, one after the other
+  std::span<const std::uint32_t> lengths{};  // of the ranges
+  PosesOfPiece own{};                        // of the origin's piece
+  const ContactOrigin& origin;
+  const Closeness& others;
+  double scale = 1.0;
+};
+
+[[nodiscard]] std::optional<metrology::BallContact> local_contact(
+    const LocalSurroundings& near, int tool, const cutter::Cutter& cutter,
+    const metrology::BallApproach& approach, double path_bound);
+
+}  // namespace frustum::trials

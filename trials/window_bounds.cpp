@@ -1,0 +1,324 @@
+#include "trials/window_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cutter/sweep/segment_motion.hpp"
+#include "trials/middle_contact.hpp"
+
+namespace frustum::trials {
+namespace {
+
+using kinematics::PoseDisplacement;
+using kinematics::ToolPath;
+using kinematics::ToolPose;
+
+// For what is of second order in the errors.
+constexpr double kSecondOrder = 1.02;
+// Machines are followed up to this many times the limits of their laws, by distances at least.
+constexpr double kMostScale = 2.0;
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+// Of the body at a pose from the point, and the way out of the body there.
+struct BodyDistance {
+  double value = 0.0;
+  Vec3 out = Vec3::UnitZ();
+};
+BodyDistance from_body(const cutter::Body& body, const ToolPose& pose, const Vec3& point) {
+  constexpr double kStep = 1e-4;  // mm: the direction to 1e-4 rad where the cutter is round
+  BodyDistance d{body.distance(pose, point), Vec3::Zero()};
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 step = kStep * Vec3::Unit(i);
+    d.out[i] = body.distance(pose, point + step) - body.distance(pose, point - step);
+  }
+  d.out.normalize();
+  return d;
+}
+
+// The least distance of the moving body from a point, from below: the distance of a cutter that
+// moves straight is a convex function of time, so that its tangents at two moments hold it from
+// below in between, but for what turning bends.
+class LeastDistance {
+ public:
+  LeastDistance(const cutter::Body& body, const cutter::SegmentMotion& motion, const Vec3& point)
+      : body_(body), motion_(motion), point_(point) {}
+
+  struct Moment {
+    double t = 0.0;
+    BodyDistance off{};
+  };
+  // Not looked into where it is more than enough.
+  [[nodiscard]] double find(const Moment& begin, const Moment& end, double enough) const {
+    return between(begin, end, enough, 0);
+  }
+
+ private:
+  [[nodiscard]] double between(const Moment& a, const Moment& b, double enough, int depth) const {
+    const double dt = b.t - a.t;
+    const double fall = std::max(0.0, dt * a.off.out.dot(motion_.velocity(point_, a.t)));
+    const double rise = std::max(0.0, -dt * b.off.out.dot(motion_.velocity(point_, b.t)));
+    const double lower = std::min(a.off.value, b.off.value);
+    double least = lower;
+    if (fall > 0.0 && rise > 0.0) {
+      const double t = std::clamp((a.off.value - b.off.value + rise) / (fall + rise), 0.0, 1.0);
+      least = std::min(least, a.off.value - fall * t);
+    }
+    least -= 0.125 * motion_.bend() * dt * dt;
+    constexpr int kDeepest = 14;
+    if (depth == kDeepest || least > enough || least > 0.8 * lower || lower <= 0.0) return least;
+    const double t = 0.5 * (a.t + b.t);
+    const Moment middle{t, from_body(body_, motion_.at(t), point_)};
+    return std::min(between(a, middle, enough, depth + 1), between(middle, b, enough, depth + 1));
+  }
+
+  const cutter::Body& body_;
+  const cutter::SegmentMotion& motion_;
+  const Vec3& point_;
+};
+
+void take(Closeness& worst, const Closeness& one) {
+  worst.per_scale = std::max(worst.per_scale, one.per_scale);
+  worst.per_drift = std::max(worst.per_drift, one.per_drift);
+  worst.per_nearer = std::max(worst.per_nearer, one.per_nearer);
+}
+
+Vec3 across(const Vec3& v, const Vec3& normal) { return v - v.dot(normal) * normal; }
+
+}  // namespace
+
+WindowBounds::WindowBounds(const kinematics::Machine& /*machine*/, const kinematics::Setup& setup,
+                           const ColumnMotion& columns, const stock::Workpiece& workpiece)
+    : setup_(setup), columns_(columns), workpiece_(workpiece) {
+  measure_largest();
+}
+
+double WindowBounds::tool_length(int tool) const {
+  const kinematics::ToolGeometry& geometry = setup_.tools.at(tool);
+  return geometry.length + geometry.length_error;
+}
+
+// At the ends of all blocks; errors that have waves within a block are of no use to anybody.
+void WindowBounds::measure_largest() {
+  const ToolPath& path = workpiece_.removed().path();
+  const auto limits = columns_.limits();
+  const auto look = [&](std::uint32_t pose, int tool) {
+    const double reach = workpiece_.removed().tool(tool).body().reach();
+    const auto motions = columns_.at(path.axes[pose], tool_length(tool));
+    double sum = 0.0;
+    for (std::size_t j = 0; j < motions.size(); ++j) {
+      sum += limits[j] * (motions[j].tip.norm() + reach * motions[j].turn.norm());
+    }
+    largest_ = std::max(largest_, sum);
+  };
+  for (std::size_t s = 0; s < path.segments.size(); ++s) {
+    const bool is_last =
+        s + 1 == path.segments.size() || path.segments[s + 1].block != path.segments[s].block;
+    if (is_last) look(path.segments[s].first_pose + 1, path.blocks[path.segments[s].block].tool);
+  }
+  largest_ *= kSecondOrder;
+}
+
+std::vector<Vec3> WindowBounds::motions(const kinematics::AxisState& state, int tool,
+                                        const ToolPose& pose, const Vec3& point) const {
+  std::vector<Vec3> motions;
+  for (const PoseDisplacement& d : columns_.at(state, tool_length(tool))) {
+    motions.push_back(d.at(point - pose.tip));
+  }
+  return motions;
+}
+
+double WindowBounds::drift_deviation(const ContactPlace& at) const {
+  double variance = 0.0;
+  for (std::size_t j = 0; j < at.motions.size(); ++j) {
+    // As if all laws were uniform.
+    const double by = columns_.limits()[j] * across(at.motions[j], at.normal).norm();
+    variance += by * by / 3.0;
+  }
+  return std::sqrt(variance);
+}
+
+const WindowBounds::Motions& WindowBounds::motions_at(Known& known, std::uint32_t id,
+                                                      const kinematics::AxisState& state,
+                                                      int tool) const {
+  const auto found = known.find(id);
+  if (found != known.end()) return found->second;
+  Motions motions;
+  for (const PoseDisplacement& d : columns_.at(state, tool_length(tool))) {
+    std::array<float, 6> numbers{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      numbers[k] = static_cast<float>(d.tip[static_cast<Eigen::Index>(k)]);
+      numbers[k + 3] = static_cast<float>(d.turn[static_cast<Eigen::Index>(k)]);
+    }
+    motions.push_back(numbers);
+  }
+  return known.emplace(id, std::move(motions)).first->second;
+}
+
+std::vector<double> WindowBounds::nearer(const ContactPlace& at, const Vec3& normal,
+                                         const ToolPose& pose, const Motions& motions) const {
+  // normal . (tip + turn x m) = normal . tip + (m x normal) . turn
+  const Vec3 moment = (at.point - pose.tip).cross(normal);
+  std::vector<double> by(motions.size());
+  for (std::size_t j = 0; j < by.size(); ++j) {
+    const auto& d = motions[j];
+    const double motion = normal.x() * d[0] + normal.y() * d[1] + normal.z() * d[2] +
+                          moment.x() * d[3] + moment.y() * d[4] + moment.z() * d[5];
+    by[j] = normal.dot(at.motions[j]) - motion;
+  }
+  return by;
+}
+
+double WindowBounds::sum_at_limits(std::span<const double> by) const {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < by.size(); ++j) sum += columns_.limits()[j] * std::abs(by[j]);
+  return kSecondOrder * sum;
+}
+
+// How much nearer a place beyond the end comes follows from how much the end itself does, times the
+// ratio of the leans; what is left are second differences along the path.
+SideBound WindowBounds::side(const ContactPlace& at, const LaneFace& face, int tool,
+                             const PlaceOnPath& end, std::span<const PlaceOnPath> beyond) {
+  SideBound side;
+  const PointOffFace at_end = off_face(face, end.pose, at.point);
+  side.at_end = at_end.distance;
+  side.rho = at_end.rho;
+  const Vec3 lean = across(at_end.out, at.normal);
+  side.lean = lean.norm();
+  if (!(side.at_end > 0.0)) return side;
+  side.closeness.per_nearer = 1.0 / side.at_end;
+  const std::vector<double> by_end =
+      nearer(at, at_end.out, end.pose, motions_at(of_places_, end.id, end.state, tool));
+  for (const PlaceOnPath& place : beyond) {
+    if (place.id == end.id) continue;
+    const PointOffFace off = off_face(face, place.pose, at.point);
+    const Vec3 its_lean = across(off.out, at.normal);
+    const double ratio =
+        side.lean > 1e-9 ? std::max(0.0, its_lean.dot(lean) / (side.lean * side.lean)) : 1.0;
+    std::vector<double> by =
+        nearer(at, off.out, place.pose, motions_at(of_places_, place.id, place.state, tool));
+    for (std::size_t j = 0; j < by.size(); ++j) by[j] -= ratio * by_end[j];
+    if (!(off.distance > 0.0)) {
+      side.at_end = 0.0;
+      return side;
+    }
+    take(side.closeness, {sum_at_limits(by) / off.distance,
+                          (its_lean - ratio * lean).norm() / off.distance, ratio / off.distance});
+  }
+  return side;
+}
+
+void WindowBounds::take_segment(Closeness& closeness, const ContactPlace& at,
+                                const kinematics::PathSegment& segment, int tool) {
+  const ToolPath& path = workpiece_.removed().path();
+  const cutter::Body& body = workpiece_.removed().tool(tool).body();
+  const cutter::SegmentMotion motion(path, segment, body.reach());
+  const double enough = 2.0 * kMostScale * 2.0 * largest_;
+  // Both ends of a part: how far off, and how much nearer it comes.
+  struct Moment {
+    double t = 0.0;
+    BodyDistance off{};
+    double nearer = 0.0, lean = 0.0;
+  };
+  const auto moment = [&](double t) {
+    const ToolPose pose = motion.at(t);
+    Moment m{t, from_body(body, pose, at.point)};
+    m.lean = across(m.off.out, at.normal).norm();
+    if (m.off.value > enough) {
+      m.nearer = 2.0 * largest_;
+    } else if (t == 0.0 || t == 1.0) {
+      const std::uint32_t end = segment.first_pose + (t == 0.0 ? 0 : 1);
+      m.nearer = sum_at_limits(
+          nearer(at, m.off.out, pose, motions_at(of_poses_, end, path.axes[end], tool)));
+    } else {
+      kinematics::AxisState state = path.axes[segment.first_pose];
+      const kinematics::AxisState& next = path.axes[segment.first_pose + 1];
+      for (const auto letter : kinematics::kAxisLetters) {
+        state.q[letter] += t * (next.q[letter] - state.q[letter]);
+        state.heading[letter] += t * (next.heading[letter] - state.heading[letter]);
+      }
+      Known fresh;
+      m.nearer = sum_at_limits(nearer(at, m.off.out, pose, motions_at(fresh, 0, state, tool)));
+    }
+    m.nearer = std::min(m.nearer, 2.0 * largest_);
+    return m;
+  };
+  // A long segment comes nearer at one end than at the other: its parts count for themselves.
+  const auto take_part = [&](const auto& self, const Moment& a, const Moment& b,
+                             int depth) -> void {
+    const double least =
+        LeastDistance(body, motion, at.point).find({a.t, a.off}, {b.t, b.off}, enough);
+    constexpr int kDeepest = 8;
+    const double most = std::max(a.off.value, b.off.value);
+    const bool is_long = most > 1.2 * least && motion.travel() * (b.t - a.t) > 0.02;
+    if (least < enough && is_long && depth < kDeepest) {
+      const Moment middle = moment(0.5 * (a.t + b.t));
+      self(self, a, middle, depth + 1);
+      self(self, middle, b, depth + 1);
+    } else if (least > 0.0) {
+      take(closeness,
+           {std::max(a.nearer, b.nearer) / least, std::max(a.lean, b.lean) / least, 0.0});
+    } else {
+      closeness.per_scale = closeness.per_drift = kNever;
+    }
+  };
+  const BodyDistance a = from_body(body, path.from(segment), at.point);
+  const BodyDistance b = from_body(body, path.to(segment), at.point);
+  const double least = LeastDistance(body, motion, at.point).find({0.0, a}, {1.0, b}, enough);
+  if (least > enough) {
+    take(closeness, {2.0 * largest_ / least, 1.0 / least, 0.0});
+  } else {
+    take_part(take_part, moment(0.0), moment(1.0), 0);
+  }
+}
+
+// A ball of that radius, by 26 directions.
+bool WindowBounds::is_inside_blank(const Vec3& point, double margin) const {
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = 0; z <= 1; ++z) {
+        const Vec3 direction = Vec3(x, y, z);
+        if (direction.isZero(0.0)) continue;
+        const Ray ray{point, direction.normalized()};
+        const IntervalSet inside = workpiece_.blank().along(ray, {-margin, margin});
+        if (inside.intervals().size() != 1) return false;
+        const Interval& whole = inside.intervals().front();
+        if (whole.lo > -margin || whole.hi < margin) return false;
+      }
+    }
+  }
+  return true;
+}
+
+bool is_in(std::span<const BlockRange> ranges, std::uint32_t block) {
+  return std::ranges::any_of(ranges, [block](const BlockRange& r) { return r.has(block); });
+}
+
+Closeness WindowBounds::others(const ContactPlace& at, std::span<const BlockRange> but, int tool,
+                               const ApproachLine& line) {
+  const ToolPath& path = workpiece_.removed().path();
+  const double far = 2.0 * kMostScale * 2.0 * largest_;
+  Closeness closeness{2.0 * largest_ / far, 1.0 / far, 0.0};
+  // The cutter itself clears the way from the start: the point of the ball is in it then, and seen
+  // from this cutter moves along the surface only, but for the turn of the line of approach (mm).
+  constexpr double kTurned = 0.01;
+  const Vec3 start = at.point + (line.clearance - line.travel) * line.normal;
+  const double cleared = -workpiece_.removed().tool(tool).body().distance(at.pose, start);
+  constexpr double kLeastInside = 1e-3;  // mm: hardly cut at all
+  double inside = far;
+  while (inside > kLeastInside && !is_inside_blank(at.point, inside)) inside *= 0.8;
+  if (!(cleared > 0.0) || !(inside > kLeastInside)) return {kNever, kNever, 0.0};
+  take(closeness, {kTurned / cleared, 1.0 / cleared, 0.0});
+  take(closeness, {0.0, 0.0, 1.0 / inside});
+  const Vec3 room = Vec3::Constant(far);
+  const Box near{at.point - room, at.point + room};
+  for (std::uint32_t s = 0; s < path.segments.size(); ++s) {
+    const kinematics::PathSegment& segment = path.segments[s];
+    if (!overlap(workpiece_.removed().box(s), near) || is_in(but, segment.block)) continue;
+    take_segment(closeness, at, segment, path.blocks[segment.block].tool);
+    if (!std::isfinite(closeness.per_scale)) break;
+  }
+  return closeness;
+}
+
+}  // namespace frustum::trials

@@ -1,0 +1,101 @@
+// How near other parts of a tool path can come to a contact when the errors change within their
+// laws.
+//
+// Model    : a point p that a cutter touches with the outward normal n. A column moves what is at p
+//            by g_j(q) when the cutter is at place q of the path; relative to the contact's own
+//            cutter it comes nearer along the normal n_q, towards p, by n_q . (g_j(own) - g_j(q)).
+//            Weights at their limits, all for the worst, bound the sum
+// Units    : mm, rad; frame: workpiece
+// Errors   : none
+// Accuracy : follow_plan.hpp
+// Source   : ours
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "kinematics/controller/setup.hpp"
+#include "stock/solid/workpiece.hpp"
+#include "trials/column_motion.hpp"
+#include "trials/lane_contact.hpp"
+
+namespace frustum::trials {
+
+struct PlaceOnPath {
+  std::uint32_t id = 0;  // the same for the same place
+  kinematics::ToolPose pose{};
+  kinematics::AxisState state{};
+};
+
+struct ContactPlace {
+  Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();  // out of the cutter
+  kinematics::ToolPose pose{};
+  std::vector<Vec3> motions{};  // of the point with its cutter, for a unit of each column
+};
+
+struct ApproachLine {
+  Vec3 touching = Vec3::Zero(), normal = Vec3::UnitZ();
+  double ball = 0.0, travel = 0.0, clearance = 0.0;
+};
+
+// Of the blocks of a tool path, both included.
+struct BlockRange {
+  std::uint32_t first = 0, last = 0;
+  [[nodiscard]] bool has(std::uint32_t block) const { return first <= block && block <= last; }
+};
+[[nodiscard]] bool is_in(std::span<const BlockRange> ranges, std::uint32_t block);
+
+// What lies beyond one end of a window.
+struct SideBound {
+  Closeness closeness{};
+  double at_end = 0.0;  // mm, of the contact from the cutter there
+  double lean = 0.0;    // sine of the angle between the normals there and at the contact
+  double rho = 1.0;     // mm, from the tool's axis
+};
+
+class WindowBounds {
+ public:
+  WindowBounds(const kinematics::Machine& machine, const kinematics::Setup& setup,
+               const ColumnMotion& columns, const stock::Workpiece& workpiece);
+
+  [[nodiscard]] double largest_motion() const { return largest_; }
+  [[nodiscard]] std::vector<Vec3> motions(const kinematics::AxisState& state, int tool,
+                                          const kinematics::ToolPose& pose,
+                                          const Vec3& point) const;
+  // Of the contact along its surface, over the population.
+  [[nodiscard]] double drift_deviation(const ContactPlace& at) const;
+  // Of the places beyond an end of the window, along the path.
+  [[nodiscard]] SideBound side(const ContactPlace& at, const LaneFace& face, int tool,
+                               const PlaceOnPath& end, std::span<const PlaceOnPath> beyond);
+  // Of all blocks but those of the ranges, of the blank, and of the way that the ball comes.
+  [[nodiscard]] Closeness others(const ContactPlace& at, std::span<const BlockRange> but, int tool,
+                                 const ApproachLine& line);
+
+ private:
+  // Motions of all columns, six numbers each.
+  using Motions = std::vector<std::array<float, 6>>;
+  using Known = std::map<std::uint32_t, Motions>;
+  [[nodiscard]] double tool_length(int tool) const;
+  [[nodiscard]] const Motions& motions_at(Known& known, std::uint32_t id,
+                                          const kinematics::AxisState& state, int tool) const;
+  // How much nearer along the normal each column brings what is at the point.
+  [[nodiscard]] std::vector<double> nearer(const ContactPlace& at, const Vec3& normal,
+                                           const kinematics::ToolPose& pose,
+                                           const Motions& motions) const;
+  [[nodiscard]] double sum_at_limits(std::span<const double> by) const;
+  void measure_largest();
+  void take_segment(Closeness& closeness, const ContactPlace& at,
+                    const kinematics::PathSegment& segment, int tool);
+  [[nodiscard]] bool is_inside_blank(const Vec3& point, double margin) const;
+
+  const kinematics::Setup& setup_;
+  const ColumnMotion& columns_;
+  const stock::Workpiece& workpiece_;
+  double largest_ = 0.0;
+  Known of_poses_{}, of_places_{};  // of the path, and others
+};
+
+}  // namespace frustum::trials
