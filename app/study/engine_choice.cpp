@@ -1,7 +1,10 @@
 #include "app/study/engine_choice.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace frustum::app {
 namespace {
@@ -13,11 +16,16 @@ using studies::EngineKind;
 constexpr double kRounding = 2e-3;  // um
 // The draws whose largest motion stands for that of all when `auto` decides.
 constexpr std::uint64_t kProbed = 4096;
+// As engine_controls.hpp has them: the bound is at least so many times the largest difference, and
+// `auto` takes none above this.
+constexpr double kBoundOfDifference = 1.5;
+constexpr double kLargestBound = 0.05;  // um
 
 struct Controls {
   std::vector<studies::ControlValues> values{};  // by characteristic
   double largest_move = 0.0;
   std::string failure{};
+  std::string refusal{};  // after few of them already
 };
 
 void take(std::vector<studies::ControlValues>& all, const std::vector<DrawOutcome>& outcomes,
@@ -29,28 +37,62 @@ void take(std::vector<studies::ControlValues>& all, const std::vector<DrawOutcom
   }
 }
 
+using Values = std::vector<double> studies::ControlValues::*;
+
+// The draws from `first` on by both engines, added to what is known of the ones before.
+void add_controls(Controls& controls, const StudyModel& model, std::span<const DrawnMachine> drawn,
+                  double scale, Values full_values, Values linear_values) {
+  const auto full = model.full(drawn, {.scale = scale});
+  const auto linear = model.linear(drawn, {.scale = scale});
+  for (const auto* outcomes : {&full, &linear}) {
+    for (const DrawOutcome& outcome : *outcomes) {
+      if (outcome.values.empty()) controls.failure = outcome.failure;
+      if (scale != 1.0) continue;
+      controls.largest_move = std::max(controls.largest_move, outcome.largest_move);
+    }
+  }
+  take(controls.values, full, full_values);
+  take(controls.values, linear, linear_values);
+}
+
+// The largest difference of lengths so far: more draws can only make it larger.
+double largest_difference(const StudyFile& study, const Controls& controls) {
+  double largest = 0.0;
+  for (std::size_t c = 0; c < controls.values.size(); ++c) {
+    if (study.characteristics[c].angular) continue;
+    const studies::ControlValues& of = controls.values[c];
+    for (std::size_t i = 0; i < of.full.size(); ++i) {
+      largest = std::max(largest, std::abs(of.full[i] - of.linear[i]));
+    }
+  }
+  return largest;
+}
+
+// Whole trials are costly: a few draws first, which may decide already.
 Controls controls_of(const StudyFile& study, const StudyModel& model, const Sampler& sampler,
                      const std::function<void(double)>& progress) {
   using studies::ControlValues;
   Controls controls;
   controls.values.resize(study.characteristics.size());
-  const auto drawn = sampler.machines(0, studies::kControls);
-  const auto compute = [&](double scale, auto full_values, auto linear_values, double share) {
-    const auto full = model.full(drawn, {.scale = scale});
-    progress(share);
-    const auto linear = model.linear(drawn, {.scale = scale});
-    for (const auto* outcomes : {&full, &linear}) {
-      for (const DrawOutcome& outcome : *outcomes) {
-        if (outcome.values.empty()) controls.failure = outcome.failure;
-        if (scale == 1.0)
-          controls.largest_move = std::max(controls.largest_move, outcome.largest_move);
-      }
-    }
-    take(controls.values, full, full_values);
-    take(controls.values, linear, linear_values);
-  };
-  compute(1.0, &ControlValues::full, &ControlValues::linear, 0.5);
-  compute(2.0, &ControlValues::full_doubled, &ControlValues::linear_doubled, 1.0);
+  const std::vector<DrawnMachine> drawn = sampler.machines(0, studies::kControls);
+  const auto some = std::span(drawn);
+  constexpr std::size_t kFew = 8;
+  for (const auto& stretch : {some.first(kFew), some.subspan(kFew)}) {
+    add_controls(controls, model, stretch, 1.0, &ControlValues::full, &ControlValues::linear);
+    progress(stretch.size() == kFew ? 0.1 : 0.5);
+    const double least_bound = kBoundOfDifference * largest_difference(study, controls);
+    if (!controls.failure.empty() || study.engine != EngineKind::automatic) continue;
+    if (least_bound <= kLargestBound) continue;
+    controls.refusal = fmt::format(
+        "whole trials differ from the linear model by {:.3g} um in {} draws, so that its bound is "
+        "above {:g} um",
+        least_bound / kBoundOfDifference, controls.values.front().full.size(), kLargestBound);
+    return controls;
+  }
+  if (!controls.failure.empty()) return controls;
+  add_controls(controls, model, drawn, 2.0, &ControlValues::full_doubled,
+               &ControlValues::linear_doubled);
+  progress(1.0);
   return controls;
 }
 
@@ -111,6 +153,11 @@ Result<ChosenEngine> choose_engine(const StudyFile& study, const StudyModel& mod
     const std::string reason = "a control draw failed: " + drawn.failure;
     if (study.engine == EngineKind::linear) return refused(reason);
     return full_because(reason);
+  }
+  if (!drawn.refusal.empty()) {
+    ChosenEngine full = full_because(drawn.refusal);
+    full.result.controls = static_cast<std::uint32_t>(drawn.values.front().full.size());
+    return full;
   }
   ChosenEngine engine{.kind = EngineKind::linear, .largest_of_controls = drawn.largest_move};
   // The bound is one of lengths; angles have their own.

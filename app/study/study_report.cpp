@@ -142,7 +142,9 @@ void add_facts(StudyPage& page, const StudyFile& study, const StudyResult& resul
       {"Machines drawn", fmt::format("{}", result.samples)},
       {"Seed and scheme", fmt::format("{}, {}", result.seed, result.scheme)},
       {"Engine", engine},
-      {"Job", study.job ? study.job->piece.title : "one pose: " + study.volumetric->axes}};
+      {"Job", study.job ? study.job->piece.title
+                        : "one pose: " +
+                              (study.volumetric->axes.empty() ? "home" : study.volumetric->axes)}};
   if (!result.failed.empty()) {
     page.remarks.push_back(fmt::format(
         "{} draws failed and count as parts that do not conform; the "

@@ -20,7 +20,7 @@ double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// A step of draws that takes longer than this is worth keeping by itself.
+// Draws of so many seconds are worth keeping before their part is whole.
 constexpr double kWorthKeeping = 2.0;  // s
 // Stop rules are looked at after 4096 * 2^k draws.
 constexpr std::uint64_t kFirstLook = 4096;
@@ -143,19 +143,19 @@ Result<StudyEnd> StudyRun::run(const StudyWork& work, const Interruption& interr
                           draws_of_worker(end_of_all(), work.job * ranks_.count() + ranks_.rank(),
                                           work.jobs * ranks_.count())};
   FirstStatistic first(study_);
+  double kept = seconds_now();
   studies::Campaign campaign;
   campaign.job = work.job;
   campaign.jobs = work.jobs;
   campaign.interrupted = [&] { return interruption.has_come(); };
   campaign.evaluate = [&](std::uint64_t begin, std::uint64_t count) -> Result<SampleBlock> {
-    const double started = seconds_now();
     SampleBlock block = sampler->sample(begin, count);
-    if (seconds_now() - started > kWorthKeeping) campaign.keep_steps = true;
+    campaign.keep_steps = seconds_now() - kept > kWorthKeeping;
+    if (campaign.keep_steps) kept = seconds_now();
     first.add(block);
     result.computed += count;
     return block;
   };
-  std::uint64_t before = 0;  // draws of earlier looks, which are told of again
   campaign.progress = [&](std::uint64_t draws) {
     state.done += draws;
     state.first = first.text();
@@ -164,7 +164,7 @@ Result<StudyEnd> StudyRun::run(const StudyWork& work, const Interruption& interr
   const bool has_stop = !study_.questions.stop.empty();
   for (std::uint64_t look = has_stop ? kFirstLook : end_of_all();; look *= 2) {
     const std::uint64_t end = std::min(look, end_of_all());
-    state.done = before;
+    state.done = 0;  // draws of earlier looks are told of again
     const auto computed = studies::compute(campaign, *folder_, ranks_, end);
     if (!computed) return computed.error();
     result.samples = end;

@@ -115,8 +115,8 @@ TEST_F(StudySamplesSystem, SurviveAnInterruption) {
 
 // Kills at random moments; what is on disk afterwards is whole, and a resumed study is the same.
 TEST_F(StudySamplesSystem, AreTheSameAfterKills) {
-  write_pose_study("engine = \"full\"\n");
-  const std::string study = " study pose.toml --quiet --samples 140000 ";
+  write_pose_study();
+  const std::string study = " study pose.toml --quiet --samples 200000 ";
   ASSERT_EQ(run(study + "--out whole").exit_code, 0);
   const auto expected = results_in("whole");
   const auto kills = proof::law_count<std::uint32_t>(30, 3);

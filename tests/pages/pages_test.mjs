@@ -63,7 +63,12 @@ function makePages() {
   if (reduced) return few;
   run('run', join(source, 'examples/ibaraki-2010/workpiece-1/job.toml'), '--out', 'step', '--quiet');
   run('sensitivity', join(source, 'examples/ibaraki-2010/workpiece-1/job.toml'), '--out', 'sensitivity', '--json');
-  return {...few, step: 'step/report.html', sensitivity: 'sensitivity/sensitivity.html'};
+  writeFileSync(join(work, 'study.toml'),
+                'target = "volumetric"\nmachine = "dvf5000"\ntool_length = 150\nsamples = 2000\n' +
+                    '[errors]\nfile = "jang-general-tolerances"\n[limits]\n"volumetric.error" = "24 um"\n' +
+                    '[measurement]\nu = "2 um"\n[risk]\n[shares]\n[allocate]\ncharacteristic = "volumetric.error"\n');
+  run('study', 'study.toml', '--out', 'study', '--quiet');
+  return {...few, step: 'step/report.html', sensitivity: 'sensitivity/sensitivity.html', study: 'study/report.html'};
 }
 
 const browser = await Browser.start(chromium);
