@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
+#include <optional>
 
+#include "core/golden_section.hpp"
 #include "cutter/search/contact_range.hpp"
 #include "kinematics/errors/error_gain.hpp"
 
@@ -91,6 +95,87 @@ class GainAtPoint {
   Mat3 workpiece_from_table_;
 };
 
+// A surface that a segment left: when it touches a point, and the normal out of the material.
+struct Side {
+  PathState state{};
+  double distance = 0.0;  // mm, of the point from the cutter
+  Vec3 normal = Vec3::UnitZ();
+};
+
+class SideOfSegment {
+ public:
+  SideOfSegment(const SweptCutter& swept, std::uint32_t segment, const Vec3& point)
+      : path_(swept.path()),
+        segment_(segment),
+        point_(point),
+        generatrix_(
+            swept.tool(path_.blocks[path_.segments[segment].block].tool).body().generatrix()) {}
+
+  [[nodiscard]] Side at(double t) const {
+    constexpr double kAside = 1e-4;  // mm: the normal is that of the distance's differences
+    Side side{{segment_, t}, distance(t, point_)};
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 aside = kAside * Vec3::Unit(k);
+      side.normal[k] = distance(t, point_ - aside) - distance(t, point_ + aside);
+    }
+    side.normal.normalize();
+    return side;
+  }
+  [[nodiscard]] Side nearest() const {
+    constexpr double kNarrow = 1e-9;
+    return at(golden_section([&](double t) { return distance(t, point_); }, 0.0, 1.0, kNarrow).at);
+  }
+
+ private:
+  [[nodiscard]] double distance(double t, const Vec3& p) const {
+    const kinematics::PathSegment& segment = path_.segments[segment_];
+    const auto pose = kinematics::between(path_.from(segment), path_.to(segment), t);
+    const Vec3 m = p - pose.tip;
+    const double z = m.dot(pose.axis);
+    return generatrix_.distance((m - z * pose.axis).norm(), z);
+  }
+  const kinematics::ToolPath& path_;
+  std::uint32_t segment_;
+  Vec3 point_;
+  const cutter::Generatrix& generatrix_;
+};
+
+// Two surfaces meet in an edge, which the ball touches: along n = a n1 + b n2 it moves by what they
+// do along their own normals, a d1 + b d2.
+struct Edge {
+  Side own{}, other{};
+  double a = 1.0, b = 0.0;
+};
+
+// With the neighbouring segment of the same tool that touches the point too, if one does.
+std::optional<Edge> edge_at(const SweptCutter& swept, const PathState& own,
+                            const metrology::Touch& touch) {
+  constexpr double kOnBoth = 1e-8;  // mm: contacts are on their own surface within 1e-9
+  constexpr double kSmooth = 1e-6;  // rad: surfaces that go on smoothly have no edge
+  const kinematics::ToolPath& path = swept.path();
+  const auto tool_of = [&](std::uint32_t segment) {
+    return path.blocks[path.segments[segment].block].tool;
+  };
+  for (const int step : {-1, 1}) {
+    const std::int64_t next = static_cast<std::int64_t>(own.segment) + step;
+    if (next < 0 || next >= static_cast<std::int64_t>(path.segments.size())) continue;
+    const auto segment = static_cast<std::uint32_t>(next);
+    if (tool_of(segment) != tool_of(own.segment)) continue;
+    Edge edge{SideOfSegment(swept, own.segment, touch.point).at(own.t),
+              SideOfSegment(swept, segment, touch.point).nearest()};
+    if (std::abs(edge.other.distance) > kOnBoth) continue;
+    const double c = edge.own.normal.dot(edge.other.normal);
+    const double sine2 = edge.own.normal.cross(edge.other.normal).squaredNorm();
+    if (!(sine2 > kSmooth * kSmooth) || c < kSameFace) continue;
+    const double along_own = touch.normal.dot(edge.own.normal);
+    const double along_other = touch.normal.dot(edge.other.normal);
+    edge.a = (along_own - c * along_other) / sine2;
+    edge.b = (along_other - c * along_own) / sine2;
+    if (edge.a >= 0.0 && edge.b >= 0.0) return edge;
+  }
+  return std::nullopt;
+}
+
 bool has_provenance(const metrology::MeasuredFeature& feature) {
   return feature.touches.size() == feature.points.size() &&
          std::all_of(feature.touches.begin(), feature.touches.end(),
@@ -128,8 +213,9 @@ Result<SurfaceGains> surface_gains(const kinematics::Machine& machine, const Tes
       ++row;
       const metrology::Touch& touch = feature.touches[i];
       if (!touch.provenance->segment) continue;  // the blank's own surface stays
-      const auto states = cutter::contact_range(
-          swept, {*touch.provenance->segment, touch.provenance->t}, touch.point);
+      const PathState cut_at{*touch.provenance->segment, touch.provenance->t};
+      const auto states = cutter::contact_range(swept, cut_at, touch.point);
+      const auto edge = states.size() == 1 ? edge_at(swept, cut_at, touch) : std::nullopt;
       // What moves is the surface, along its own normal; what counts is the way along the measured
       // one. The facets of a program differ from the fitted element by half the angle between them.
       const Vec3 n = workpiece_from_datum.direction(feature.points[i].normal);
@@ -138,10 +224,18 @@ Result<SurfaceGains> surface_gains(const kinematics::Machine& machine, const Tes
       const Vec3& own = is_same ? touch.normal : n;
       const double lengthened = is_same ? 1.0 / cosine : 1.0;
       for (Eigen::Index k = 0; k < columns; ++k) {
+        const Parameter& parameter = parameters[static_cast<std::size_t>(k)];
+        if (edge && is_same) {
+          const auto along = [&](const Side& side) {
+            return gain(parameter, side.state, touch.point, side.normal);
+          };
+          gains.odd(row, k) =
+              lengthened * (edge->a * along(edge->own) + edge->b * along(edge->other));
+          continue;
+        }
         double low = std::numeric_limits<double>::infinity(), high = -low;
         for (const PathState& state : states) {
-          const double g =
-              lengthened * gain(parameters[static_cast<std::size_t>(k)], state, touch.point, own);
+          const double g = lengthened * gain(parameter, state, touch.point, own);
           low = std::min(low, g);
           high = std::max(high, g);
         }

@@ -9,7 +9,7 @@
 #include <system_error>
 
 #include "core/whole_file.hpp"
-#include "report/exchange/csv_field.hpp"
+#include "report/csv_field.hpp"
 
 namespace frustum::app {
 namespace {

@@ -1,4 +1,4 @@
-// A study file: which job or test many machines are drawn for, how often, and what is asked of them.
+// A study file: for which job or test machines are drawn, how many, and what is asked of them.
 //
 // Units  : as people write them ("10 um", "30 urad"); inside mm and rad, limits in the units of
 //          samples (um, urad). Paths are relative to the file

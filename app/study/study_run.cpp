@@ -185,8 +185,8 @@ Result<StudyEnd> StudyRun::run(const StudyWork& work, const Interruption& interr
     if (decision == 1) break;
   }
   if (!result.interrupted && work.jobs == 1 && ranks_.is_first()) {
-    const auto kept = folder_->end_at(result.samples);
-    if (!kept) return kept.error();
+    const auto ended = folder_->end_at(result.samples);
+    if (!ended) return ended.error();
   }
   return result;
 }

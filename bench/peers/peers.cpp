@@ -1,5 +1,5 @@
 // Frustum beside Manifold, CGAL and a plain tri-dexel: time, memory and surface error of the same
-// cut, every error measured the same way (surface_error.hpp). make peers runs it; docs/performance.md
+// cut, every error measured the same way (surface_error.hpp). make peers runs it, performance.md
 // has a table that it printed.
 #include <fmt/format.h>
 #include <unistd.h>

@@ -21,7 +21,7 @@ struct BoxRow {
 [[nodiscard]] std::string box_figure(const std::string& title, const std::string& scale_title,
                                      std::span<const BoxRow> rows);
 
-// The share of values that are not larger: at each value its p; as many points as are worth drawing.
+// The share of values that are not larger: at each value its p; as many points as can be seen.
 struct DistributionLine {
   std::vector<double> value{};  // ascending
   std::vector<double> p{};

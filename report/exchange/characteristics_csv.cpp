@@ -4,7 +4,7 @@
 #include <optional>
 #include <unordered_map>
 
-#include "report/exchange/csv_field.hpp"
+#include "report/csv_field.hpp"
 #include "report/form_parameter.hpp"
 #include "report/number_text.hpp"
 #include "report/verdict.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "metrology/plan/nominal.hpp"
-#include "report/exchange/csv_field.hpp"
+#include "report/csv_field.hpp"
 
 namespace frustum::report {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "core/base64.hpp"
-#include "report/exchange/csv_field.hpp"
+#include "report/csv_field.hpp"
 #include "report/html/html_text.hpp"
 #include "report/html/page_bundle.hpp"
 #include "report/number_text.hpp"

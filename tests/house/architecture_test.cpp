@@ -50,7 +50,7 @@ std::vector<Confined> confined_headers() {
             "stock/solid/box_scene\\.cpp|report/picture/surface_rays\\.cpp"),
       entry("toml++", "toml\\+\\+/.*|toml\\.hpp", "core/toml_(document|edit)\\.cpp"),
       entry("Random123", "Random123/.*", "core/random\\.cpp"),
-      entry("CLI11", "CLI/.*", "app/command/command_line\\.cpp"),
+      entry("CLI11", "CLI/.*", "app/command/command_line\\.cpp|bench/peers/peers\\.cpp"),
       entry("GoogleTest", "(gtest|gmock|rapidcheck).*", "tests/.*"),
   };
 }

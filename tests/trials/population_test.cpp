@@ -127,11 +127,12 @@ TEST(PopulationLaws, FollowWholeTrialsOfErrorsTenTimesLarger) {
                                proof::law_count(20U, 1U), 10.0);
 }
 
-TEST(Population, AsksHardlyAPointOfTheWholeProgram) {
+TEST(Population, SweepingNearByAsksHardlyAPointOfTheWholeProgram) {
   const auto cone = ConePopulation::of(40, false);
-  const Population population = cone.population();
+  const Population population = *Population::make(cone.machine, cone.piece, cone.commanded,
+                                                  cone.laws, {.sweeps_near_by = true});
   std::size_t whole = 0, local = 0;
-  const auto draws = cone.draws(48);
+  const auto draws = cone.draws(12);
   for (const PopulationMember& member : population.evaluate(draws)) {
     EXPECT_EQ(member.values.size(), 3);
     whole += member.whole;
@@ -144,7 +145,8 @@ TEST(Population, AsksHardlyAPointOfTheWholeProgram) {
 
 TEST(Population, HasTheSameBitsForAnyThreadsAndNeighbours) {
   const auto cone = ConePopulation::of(6, false);
-  const Population population = cone.population();
+  const Population population = *Population::make(cone.machine, cone.piece, cone.commanded,
+                                                  cone.laws, {.sweeps_near_by = true});
   const auto draws = cone.draws(19);
   std::vector<PopulationMember> first;
   for (const int threads : {1, 2, 8}) {
@@ -172,9 +174,13 @@ TEST(PopulationLawsOfErrors, AreTheErrorsOfADraw) {
         "uniform 0deg..360deg + 2um",
         "EYX=polynomial 1um, uniform -2um..2um, 3um", "EX0C=normal 3um sd 2um",
         "EBB=harmonic 2 normal 0urad sd 5urad limit 9urad phase 30deg"}) {
-    entries.push_back(*kinematics::parse_error(text));
+    const auto entry = kinematics::parse_error(text);
+    ASSERT_TRUE(entry) << text << ": " << to_string(entry.error().front());
+    entries.push_back(*entry);
   }
-  const auto laws = *PopulationLaws::of(machine, entries, kinematics::AxisSpans{});
+  const auto read = PopulationLaws::of(machine, entries, kinematics::AxisSpans{});
+  ASSERT_TRUE(read) << to_string(read.error().front());
+  const PopulationLaws& laws = *read;
   EXPECT_EQ(laws.columns().size(), 6);
   for (std::uint32_t d = 0; d < 4; ++d) {
     const auto drawn = kinematics::draw(entries, 9, d);

@@ -1,4 +1,4 @@
-#include "report/exchange/csv_field.hpp"
+#include "report/csv_field.hpp"
 
 namespace frustum::report {
 namespace {
