@@ -71,7 +71,8 @@ TEST_F(StudySystem, DrawsTheMachinesThatRunDraws) {
   write_cone();
   write_cone_study("");
   write("errors.toml",
-        "title = \"the same\"\n[errors]\nEX0C = \"uniform -10um..10um\"\nEB0C = "
+        "title = \"the same\"\nmachine = \"iwf-bc\"\n[errors]\nEX0C = \"uniform "
+        "-10um..10um\"\nEB0C = "
         "\"normal 0urad sd 20urad\"\n");
   const json study = result_of("study.toml --samples 2 --seed 7 --csv draws.csv");
   const Outcome alone = run("run piece/job.toml --errors errors.toml --draw 7 --json --out out");

@@ -172,7 +172,7 @@ TEST(PopulationLawsOfErrors, AreTheErrorsOfADraw) {
   for (const char* text :
        {"EXX=linear uniform -3um..3um + cyclic uniform -1um..1um period 30mm phase "
         "uniform 0deg..360deg + 2um",
-        "EYX=polynomial 1um, uniform -2um..2um, 3um", "EX0C=normal 3um sd 2um",
+        "EYX=polynomial 1um uniform -2um..2um 3um", "EX0C=normal 3um sd 2um",
         "EBB=harmonic 2 normal 0urad sd 5urad limit 9urad phase 30deg"}) {
     const auto entry = kinematics::parse_error(text);
     ASSERT_TRUE(entry) << text << ": " << to_string(entry.error().front());
