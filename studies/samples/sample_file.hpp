@@ -1,8 +1,8 @@
 // A file of samples: HDF5, one dataset a column, as h5py, MATLAB, Julia and pandas read it.
 //
 // Datasets : draw (int64), the columns by their names (double, attribute `unit`), pass/NAME
-//            (uint8), points (draw x point, um), failed/draw (int64) and failed/message (text) where draws
-//            failed; of whatever is empty there is none
+//            (uint8), points (draw x point, um), failed/draw (int64) and failed/message (text)
+//            where draws failed; of whatever is empty there is none
 // Root     : attributes frustum.study (SHA-256 of the study and of every file that it reads), seed,
 //            first_draw, count
 // Seal     : a line with the SHA-256 of all bytes before it ends the file, after what readers of
