@@ -1,8 +1,8 @@
 // How far a point is from the true surface, by standing cutters: no ray, chord or envelope of ours.
 //
-// Model    : the material's signed distance is max(blank's, -void's); the void's is the least signed
-//            distance to the cutter at any time (tests/cutter/standing_cutters.hpp). Parts of the
-//            path are left out when a bound on their motion proves them farther away
+// Model    : the material's signed distance is max(blank's, -void's); the void's is the least
+//            signed distance to the cutter at any time (tests/cutter/standing_cutters.hpp). Parts
+//            of the path are left out when a bound on their motion proves them farther away
 // Units    : mm; frame: workpiece
 // Errors   : none
 // Accuracy : 1e-4 nm in the material and where the surface is smooth; at most the distance outside

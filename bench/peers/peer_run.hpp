@@ -2,8 +2,8 @@
 //
 // Units    : mm, s, MiB
 // Errors   : a row says so where the program is not there, gave up or was stopped
-// Accuracy : the fastest of up to three runs within two seconds; the memory is the peak of the process up to
-//            the finished mesh, before anything is measured
+// Accuracy : the fastest of up to three runs within two seconds; the memory is the peak of the
+//            process up to the finished mesh, before anything is measured
 #pragma once
 
 #include "bench/peers/peer_programs.hpp"
