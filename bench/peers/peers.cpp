@@ -1,13 +1,14 @@
 // Frustum beside Manifold, CGAL and a plain tri-dexel: time, memory and surface error of the same
-// cut, every error measured the same way (surface_error.hpp). make peers runs it, performance.md
-// has a table that it printed.
+// cut, every error measured the same way (surface_error.hpp). make peers runs it;
+// docs/performance.md has a table that it printed.
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -185,24 +186,64 @@ bool compare_programs(const PeerScene& scene, int blocks, bool all, const std::s
   return exact;
 }
 
+constexpr const char* kUsage =
+    "frustum_peers [--blocks 72|720|7200] [--scene cone|freeform|both] [--only PROGRAM] [--all]\n"
+    "              [--limit CPU_SECONDS] [--memory GIB] [--lines N] [--vertices N]\n"
+    "--all: also what takes many minutes\n";
+
+struct Wish {
+  int blocks = 7200;  // of the longest program
+  bool all = false;
+  std::string scene = "cone";
+  std::string only{};
+  RunLimits limits{};
+  ErrorOptions options{};
+};
+
+std::optional<Wish> wish_of(const std::vector<std::string>& words) {
+  Wish wish;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == "--all") {
+      wish.all = true;
+      continue;
+    }
+    if (i + 1 == words.size()) return std::nullopt;
+    const std::string& name = words[i];
+    const std::string& value = words[++i];
+    if (name == "--scene") {
+      wish.scene = value;
+    } else if (name == "--only") {
+      wish.only = value;
+    } else {
+      const double number = std::atof(value.c_str());
+      if (!(number >= 1.0 && number < 1e9)) return std::nullopt;
+      if (name == "--blocks") {
+        wish.blocks = static_cast<int>(number);
+      } else if (name == "--limit") {
+        wish.limits.cpu_seconds = number;
+      } else if (name == "--memory") {
+        wish.limits.gibibytes = number;
+      } else if (name == "--lines") {
+        wish.options.lines = static_cast<int>(number);
+      } else if (name == "--vertices") {
+        wish.options.vertices = static_cast<int>(number);
+      } else {
+        return std::nullopt;
+      }
+    }
+  }
+  return wish;
+}
+
 }  // namespace
 
 int main(int count, char** words) {
-  CLI::App app{"Frustum beside Manifold, CGAL and a plain tri-dexel on the same cut"};
-  int blocks = 7200;
-  bool all = false;
-  std::string scene = "cone", only;
-  RunLimits limits;
-  ErrorOptions options;
-  app.add_option("--blocks", blocks, "The longest program: 72, 720, 7200");
-  app.add_option("--scene", scene, "cone, freeform or both");
-  app.add_option("--only", only, "Only programs whose name contains this");
-  app.add_flag("--all", all, "Also what takes many minutes");
-  app.add_option("--limit", limits.cpu_seconds, "Seconds of CPU that a mesh may take");
-  app.add_option("--memory", limits.gibibytes, "GiB that a program may take");
-  app.add_option("--lines", options.lines, "Random lines that measure");
-  app.add_option("--vertices", options.vertices, "Vertices that are measured");
-  CLI11_PARSE(app, count, words);
+  const std::optional<Wish> wish = wish_of({words + 1, words + count});
+  if (!wish) {
+    std::fputs(kUsage, stderr);
+    return 2;
+  }
+  const auto& [blocks, all, scene, only, limits, options] = *wish;
 
 #ifdef FRUSTUM_PEERS_MANIFOLD
   print("Manifold " FRUSTUM_PEERS_MANIFOLD);
