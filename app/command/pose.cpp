@@ -177,10 +177,11 @@ int inverse(const PoseOptions& options, const Machine& machine) {
 }
 
 int run_pose(const PoseOptions& options) {
-  if (!std::isfinite(options.tool_length) || options.tool_length < 0.0) {
+  constexpr double kLongest = 1e9;  // mm, as far as axes go
+  if (!(options.tool_length >= 0.0 && options.tool_length <= kLongest)) {
     return refuse(
-        error("out-of-range"_id, fmt::format("--tool-length {}: expected a length in mm, 0 or more",
-                                             options.tool_length)),
+        error("out-of-range"_id, fmt::format("--tool-length {}: expected a length in mm, 0 to {:g}",
+                                             options.tool_length, kLongest)),
         options);
   }
   const auto machine = load_machine(options.machine, ".");

@@ -6,6 +6,12 @@
 #include <cmath>
 
 namespace frustum::app {
+namespace {
+
+// mm or degrees: a thousand kilometres. Farther away numbers are more than 0.1 um apart.
+constexpr double kFarthest = 1e9;
+
+}  // namespace
 
 Result<std::vector<double>> numbers_of(const std::string& text, std::size_t count,
                                        const std::string& what) {
@@ -23,6 +29,10 @@ Result<std::vector<double>> numbers_of(const std::string& text, std::size_t coun
           "not-a-number"_id,
           fmt::format("'{}' in {} is not a number", text.substr(start, comma - start), what),
           fmt::format("expected {} numbers separated by commas", count));
+    }
+    if (std::abs(value) > kFarthest) {
+      return error("out-of-range"_id,
+                   fmt::format("{} in {}: expected at most {:g}", value, what, kFarthest));
     }
     numbers.push_back(value);
     start = comma + 1;

@@ -1,6 +1,7 @@
 // Numbers in one word, as in --center x,y,z.
 //
-// Units: those of the caller. Errors: a part that is no number, another count.
+// Units: those of the caller. Errors: a part that is no number, one beyond 1e9,
+// another count.
 #pragma once
 
 #include <string>

@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/units.hpp"
+
 namespace frustum::metrology {
 namespace {
 
@@ -21,6 +23,14 @@ constexpr double kUntold = 1e-10;
 // circle of a ball slides along its axis if it is small, but that says nothing of how the part
 // lies, and may have its minimum degrees away.
 constexpr double kLargestBend = 0.5;
+
+// Locked rotations are about the origin: only there do they leave shifts alone.
+Vec3 centre_of(std::span<const PointOnElement> points, const std::array<bool, 6>& locked) {
+  Vec3 centre = Vec3::Zero();
+  if (locked[0] || locked[1] || locked[2]) return centre;
+  for (const PointOnElement& p : points) centre += p.point / static_cast<double>(points.size());
+  return centre;
+}
 
 // The points and elements about `centre`, so that coordinates are no larger than the part, and the
 // degrees that are free.
@@ -57,6 +67,17 @@ Pose motion_of(const Vec6& step, double size) {
   Mat3 rotation = Mat3::Identity();
   if (angle > 0.0) rotation = rotation_about(turn / angle, angle);
   return {rotation, step.head<3>()};
+}
+
+// The motion of a body that keeps this velocity for the time 1: a screw.
+Pose screw_of(const Vec6& velocity, double size) {
+  const Vec3 turn = velocity.tail<3>() / size, shift = velocity.head<3>();
+  const double angle = turn.norm();
+  if (!(angle > 0.0)) return {Mat3::Identity(), shift};
+  const Vec3 once = turn.cross(shift), twice = turn.cross(once);
+  return {rotation_about(turn / angle, angle),
+          shift + (1.0 - std::cos(angle)) / (angle * angle) * once +
+              (angle - std::sin(angle)) / (angle * angle * angle) * twice};
 }
 
 // Normal equations of the motion of the points against the planned geometry.
@@ -115,6 +136,36 @@ std::vector<Vec6> strong_ways(const Task& task) {
   return strong;
 }
 
+// The largest change of a deviation by a motion along each free direction that the points, laid into
+// the planned geometry, do not tell.
+double bend_of_untold(const Task& laid) {
+  constexpr double kTurn = kRadPerDeg;
+  const auto without = [](Vec6 v, const std::vector<Vec6>& others) {
+    for (const Vec6& other : others) v -= other.dot(v) * other;
+    return v;
+  };
+  const std::vector<Vec6> told = told_ways(laid, {});
+  std::vector<Vec6> untold;
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    if (laid.locked[static_cast<std::size_t>(k)]) continue;
+    const Vec6 left = without(without(Vec6::Unit(k), told), untold);
+    // What rounding leaves of a direction that is told is no direction.
+    constexpr double kNothing = 1e-6;
+    if (left.norm() > kNothing) untold.push_back(without(left.normalized(), told).normalized());
+  }
+  double largest = 0.0;
+  for (const Vec6& way : untold) {
+    const Pose moves = screw_of(kTurn * laid.size * way, laid.size);
+    for (std::size_t i = 0; i < laid.points.size(); ++i) {
+      const Element& planned = laid.elements[laid.element_of[i]];
+      const double before = residual(planned, laid.points[i]);
+      const double after = residual(planned, moves.point(laid.points[i]));
+      largest = std::max(largest, std::abs(after - before));
+    }
+  }
+  return largest;
+}
+
 // Gauss-Newton along these directions; nothing where it does not settle.
 std::optional<Pose> settled(const Task& task, const std::vector<Vec6>& ways, Pose pose) {
   if (ways.empty()) return pose;
@@ -139,10 +190,7 @@ std::optional<Pose> settled(const Task& task, const std::vector<Vec6>& ways, Pos
 Result<BestFit> best_fit(std::span<const PointOnElement> points,
                          const std::array<bool, 6>& locked) {
   if (points.empty()) return error("too-few-points"_id, "a best fit without points");
-  Vec3 centre = Vec3::Zero();
-  for (const PointOnElement& p : points) centre += p.point / static_cast<double>(points.size());
-  // Locked rotations are about the origin: only there do they leave shifts alone.
-  if (locked[0] || locked[1] || locked[2]) centre = Vec3::Zero();
+  const Vec3 centre = centre_of(points, locked);
   const Task task = task_of(points, centre, locked);
 
   // Far from the points the bend of the surfaces hides what they say: the directions are chosen
@@ -172,6 +220,10 @@ Result<BestFit> best_fit(std::span<const PointOnElement> points,
     // Of two degrees that share one direction the one with the larger part counts.
     found.is_told[k] = !locked[k] && told[static_cast<Eigen::Index>(k)] > 0.5;
   }
+  std::vector<PointOnElement> laid(points.begin(), points.end());
+  const Pose planned_from_measured = found.measured_from_planned.inverse();
+  for (PointOnElement& p : laid) p.point = planned_from_measured.point(p.point);
+  found.bend_of_untold = bend_of_untold(task_of(laid, centre_of(laid, locked), locked));
   return found;
 }
 

@@ -31,6 +31,10 @@ struct BestFit {
   Pose measured_from_planned{};
   std::array<bool, 6>
       is_told{};  // shifts along x, y, z, rotations about them: free ones that points tell
+  // mm: what a turn by 1 deg, or a shift by as much at the rim of the part, that is free and not
+  // told makes of the deviations. 0, to rounding, if the part slides in itself: what is not told
+  // does not matter then.
+  double bend_of_untold = 0.0;
 };
 // `locked`: degrees to leave alone, in the same order.
 [[nodiscard]] Result<BestFit> best_fit(std::span<const PointOnElement> points,

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "cutter/sweep/segment_motion.hpp"
@@ -41,13 +42,21 @@ Box box_of(const NonCuttingBody& body, const ToolPath& path, const PathSegment& 
   return all;
 }
 
+struct Key {
+  std::uint32_t block = 0;
+  CollisionBody body = CollisionBody::shank;
+  auto operator<=>(const Key&) const = default;
+};
+
 // All passages that come near the blank. Their boxes are one scene a body, in which a ray finds
 // them.
 class Passages {
  public:
-  Passages(const Workpiece& workpiece, const std::vector<NonCuttingBody>& bodies)
+  // But those that are `known` to collide.
+  Passages(const Workpiece& workpiece, const std::vector<NonCuttingBody>& bodies,
+           const std::set<Key>& known)
       : path_(workpiece.removed().path()) {
-    for (const NonCuttingBody& body : bodies) collect(workpiece.blank().bounds(), body);
+    for (const NonCuttingBody& body : bodies) collect(workpiece.blank().bounds(), body, known);
   }
 
   [[nodiscard]] bool empty() const { return bodies_.empty(); }
@@ -96,12 +105,13 @@ class Passages {
     BoxScene scene{};          // of the boxes
   };
 
-  void collect(const BoundingBox& blank, const NonCuttingBody& body) {
+  void collect(const BoundingBox& blank, const NonCuttingBody& body, const std::set<Key>& known) {
     if (body.parts.empty()) return;
     BodyBoxes near_blank{&body};
     for (std::uint32_t i = 0; i < path_.segments.size(); ++i) {
       const PathSegment& segment = path_.segments[i];
       if (body.tool != path_.blocks[segment.block].tool) continue;
+      if (known.contains({segment.block, body.body})) continue;
       const Box box = box_of(body, path_, segment);
       if (!overlap(box, blank)) continue;
       near_blank.segments.push_back(i);
@@ -116,11 +126,6 @@ class Passages {
   std::vector<BodyBoxes> bodies_{};
 };
 
-struct Key {
-  std::uint32_t block = 0;
-  CollisionBody body = CollisionBody::shank;
-  auto operator<=>(const Key&) const = default;
-};
 struct Longest {
   double length = 0.0;
   Vec3 point = Vec3::Zero();
@@ -205,6 +210,18 @@ Hits hits_of_family(const Workpiece& workpiece, const Timetable& table, const Pa
   return all;
 }
 
+// Rays that far apart along each axis.
+std::array<Hits, 3> hits_of(const Workpiece& workpiece, const Timetable& table,
+                            const Passages& passages, double pitch) {
+  std::array<Hits, 3> families;
+  if (passages.empty()) return families;
+  for (int axis = 0; axis < 3; ++axis) {
+    families[static_cast<std::size_t>(axis)] = hits_of_family(
+        workpiece, table, passages, CellRays::over(workpiece.blank().bounds(), axis, pitch));
+  }
+  return families;
+}
+
 // The longest overlap along the direction in which the overlap is thinnest.
 Hits thinnest(const std::array<Hits, 3>& families) {
   Hits all;
@@ -231,6 +248,12 @@ Collision described(const ToolPath& path, const Key& key, const Longest& hit) {
           .depth = hit.length + kCollisionMargin};
 }
 
+double radius_of(const NonCuttingBody& body) {
+  double radius = 0.0;
+  for (const Profile& part : body.parts) radius = std::max(radius, part.max_radius());
+  return radius;
+}
+
 double pitch_for(const BoundingBox& blank, const std::vector<NonCuttingBody>& bodies) {
   const double side = (blank.max - blank.min).maxCoeff();
   double pitch = side / 60.0;
@@ -240,25 +263,41 @@ double pitch_for(const BoundingBox& blank, const std::vector<NonCuttingBody>& bo
   return std::max(pitch, side / 250.0);
 }
 
+// Of overlaps that few rays have found along each axis those deeper than the body's radius: nobody
+// asks how deep these are to the last bit, and a body that is in the material all the way would be
+// followed along each of many rays.
+Hits deep_ones(const std::array<Hits, 3>& families, const ToolPath& path,
+               const std::vector<NonCuttingBody>& bodies) {
+  std::map<std::pair<int, CollisionBody>, double> radius;
+  for (const NonCuttingBody& body : bodies) radius[{body.tool, body.body}] = radius_of(body);
+  Hits deep = thinnest(families);
+  std::erase_if(deep, [&](const auto& found) {
+    const Key& key = found.first;
+    return found.second.length <= radius.at({path.blocks[key.block].tool, key.body}) ||
+           std::ranges::any_of(families,
+                               [&key](const Hits& family) { return !family.contains(key); });
+  });
+  return deep;
+}
+
 }  // namespace
 
 std::vector<Collision> find_body_collisions(const Workpiece& workpiece,
                                             const std::vector<NonCuttingBody>& bodies) {
-  const Passages passages(workpiece, bodies);
+  const Passages passages(workpiece, bodies, {});
   if (passages.empty()) return {};
   const ToolPath& path = workpiece.removed().path();
   const Timetable table(path);
-  const BoundingBox blank = workpiece.blank().bounds();
-  const double pitch = pitch_for(blank, bodies);
-  std::array<Hits, 3> families;
-  for (int axis = 0; axis < 3; ++axis) {
-    families[static_cast<std::size_t>(axis)] =
-        hits_of_family(workpiece, table, passages, CellRays::over(blank, axis, pitch));
-  }
+  const double pitch = pitch_for(workpiece.blank().bounds(), bodies);
+  constexpr double kCoarse = 4.0;  // a sixteenth of the rays
+  Hits hits = deep_ones(hits_of(workpiece, table, passages, kCoarse * pitch), path, bodies);
+  std::set<Key> known;
+  for (const auto& [key, hit] : hits) known.insert(key);
+  hits.merge(thinnest(hits_of(workpiece, table, Passages(workpiece, bodies, known), pitch)));
   // Blocks that follow each other make one collision, of each body.
   std::vector<Collision> found;
   std::map<CollisionBody, std::pair<std::size_t, std::uint32_t>> open;  // its index and last block
-  for (const auto& [key, hit] : thinnest(families)) {
+  for (const auto& [key, hit] : hits) {
     const Collision here = described(path, key, hit);
     const auto before = open.find(key.body);
     const bool goes_on = before != open.end() && before->second.second + 1 == key.block &&

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -193,7 +192,8 @@ std::optional<Suspicion> suspicion(const Workpiece& workpiece, const SuspectMove
   const Body& body = workpiece.removed().tool(path.blocks[move.block].tool).body();
   if (move.segments.size() > kMostSegments || !body.concave().empty() ||
       std::ranges::any_of(move.segments, turns)) {
-    return Suspicion{move.box, std::numeric_limits<int>::max()};
+    constexpr int kMost = 128;
+    return Suspicion{move.box, kMost};
   }
   OverlapSearch search(workpiece, move);
   for (const Profile& part : body.parts()) {
@@ -222,6 +222,9 @@ Overlap measured_overlap(const Workpiece& workpiece, const SuspectMove& move,
                          const Suspicion& where, double pitch) {
   const Box& box = where.box;
   const Vec3 size = box.max - box.min;
+  std::vector<Box> boxes;
+  boxes.reserve(move.segments.size());
+  for (const std::uint32_t i : move.segments) boxes.push_back(workpiece.removed().box(i));
   Overlap worst;
   if (!(size.array() > 0.0).all()) return worst;
   // At least four rays across whatever is there, so that a thin overlap is not stepped over.
@@ -234,12 +237,23 @@ Overlap measured_overlap(const Workpiece& workpiece, const SuspectMove& move,
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
     const RaySpan span{0.0, size[axis]};
     for (int i = 0; i < count(u); ++i) {
+      const double across = box.min[u] + (i + 0.5) / count(u) * size[u];
+      std::vector<std::size_t> beside;  // segments that rays of this row may meet
+      for (std::size_t k = 0; k < boxes.size(); ++k) {
+        if (boxes[k].min[u] <= across && across <= boxes[k].max[u]) beside.push_back(k);
+      }
       for (int j = 0; j < count(v); ++j) {
-        const Ray ray{box.min + (i + 0.5) / count(u) * size[u] * Vec3::Unit(u) +
-                          (j + 0.5) / count(v) * size[v] * Vec3::Unit(v),
-                      Vec3::Unit(axis)};
+        Ray ray{box.min, Vec3::Unit(axis)};
+        ray.origin[u] = across;
+        ray.origin[v] += (j + 0.5) / count(v) * size[v];
+        std::vector<std::uint32_t> met_segments;
+        for (const std::size_t k : beside) {
+          const bool may_meet =
+              boxes[k].min[v] <= ray.origin[v] && ray.origin[v] <= boxes[k].max[v];
+          if (may_meet) met_segments.push_back(move.segments[k]);
+        }
         const IntervalSet covered = workpiece.removed()
-                                        .core_along(ray, move.segments, kCollisionMargin)
+                                        .core_along(ray, met_segments, kCollisionMargin)
                                         .intersected(IntervalSet({{span.lo, span.hi}}));
         if (covered.empty()) continue;
         const IntervalSet met =

@@ -11,9 +11,10 @@
 // Errors   : none
 // Accuracy : overlaps of more than the margin (10.1 um) are found when they hold a ray: a third of
 //            the cutter's radius between rings and an eighth of a right angle around; a twelfth of
-//            the diameter where it turns; for shanks and holders a quarter of their radius, but not
-//            less than 1/250 of the blank's longest side. A depth is as exact as the densest of
-//            them
+//            the diameter where it turns, but not less than 1/128 of the move's box; for shanks and
+//            holders a quarter of their radius, but not less than 1/250 of the blank's longest
+//            side, four times that far apart for what is deeper than the radius. A depth is as
+//            exact as the densest of them
 // Threads  : find_collisions() runs on oneTBB; the same bits for any number of threads
 #pragma once
 

@@ -302,7 +302,16 @@ Result<Blank> Blank::make(const BlankShape& shape, const Vec3& origin) {
   if (const auto fault = std::visit([](const auto& s) { return fault_of(s); }, shape)) {
     return *fault;
   }
-  return Blank(shape, origin);
+  Blank blank(shape, origin);
+  // As of other bodies; rounding is 1e-11 mm there.
+  constexpr double kFarthest = 1e5;  // mm
+  const Box box = blank.bounds();
+  const double reach = box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff();
+  if (!(reach <= kFarthest)) {
+    return error("blank-too-far"_id, fmt::format("the blank reaches {:.3g} mm", reach),
+                 fmt::format("sizes and places of a blank are at most {:g} mm", kFarthest));
+  }
+  return blank;
 }
 
 IntervalSet Blank::along(const Ray& ray, RaySpan span) const {

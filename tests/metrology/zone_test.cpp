@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -13,6 +14,7 @@ namespace {
 using K = CharacteristicKind;
 using measured::feature;
 using measured::turned;
+using testing::HasSubstr;
 
 // um as reported, in mm.
 double value_of(const PlannedCharacteristic& planned, const std::vector<FittedFeature>& features) {
@@ -264,6 +266,67 @@ TEST(Profile, WithoutDatumsForgivesPlaceAndDirection) {
   EXPECT_GT(value_of(floating, features), 0.5);
   floating.floating = true;
   EXPECT_NEAR(value_of(floating, features), 0.006, kExactZone);  // the radius stays wrong
+}
+
+PlannedFeature taper(const std::string& name, const Vec3& point, double radius) {
+  PlannedFeature cone = measured::cylinder(name, point, -Vec3::UnitZ(), radius);
+  cone.kind = FeatureKind::cone;
+  cone.half_angle = 30.0 * kRadPerDeg;
+  return cone;
+}
+
+TEST(Profile, WithoutDatumsForgivesTwoDegreesOfAPerfectPart) {
+  const std::vector<PlannedFeature> parts{
+      measured::cylinder("C", {3, 0, 5}, Vec3::UnitZ(), 14.4), taper("K", {20, 0, 30}, 25.0),
+      measured::plane("F", {0, 0, 20}, Vec3::UnitZ(), {40, 0, 0}, {0, 20, 0})};
+  const Pose lies =
+      Pose::translated({0.5, -0.3, 0.2}) * turned(Vec3(0.6, 0.8, 0), 2.0 * kRadPerDeg);
+  for (const PlannedFeature& part : parts) {
+    const std::vector<FittedFeature> features{feature(part, lies)};
+    for (const K kind : {K::line_profile, K::surface_profile}) {
+      PlannedCharacteristic c = measured::characteristic(kind, {part.name});
+      c.floating = true;
+      EXPECT_NEAR(value_of(c, features), 0.0, 1e-9) << part.name;
+      c.floating = false;
+      EXPECT_GT(value_of(c, features), 0.1) << part.name;
+    }
+  }
+}
+
+// All sections tell how the part lies; then each is laid into its own points.
+TEST(Profile, WithoutDatumsOfSectionsForgivesWhereEachIs) {
+  const auto shaft =
+      measured::cylinder("C", {0, 0, 0}, Vec3::UnitZ(), 14.4, {-10.0, 0.0, 10.0}, 36);
+  const auto bent = [](const Vec3& p) { return (p.z() == 0.0 ? 0.003 : 0.0) * p.x() / 14.4; };
+  const std::vector<FittedFeature> features{feature(shaft, turned(Vec3::UnitX(), 0.03), bent)};
+  PlannedCharacteristic c = measured::characteristic(K::line_profile, {"C"});
+  c.floating = true;
+  // A shift by 0.003 mm leaves a circle of 14.4 mm oval by its square over the radius.
+  EXPECT_NEAR(value_of(c, features), 0.0, 2.0 * 0.003 * 0.003 / 14.4);
+  c.kind = K::surface_profile;
+  EXPECT_GT(value_of(c, features), 0.0002);
+}
+
+TEST(Profile, WithoutDatumsOfOneSectionIsRefusedForItMayBeAskew) {
+  PlannedFeature shaft = measured::cylinder("shaft", {0, 0, 0}, Vec3::UnitZ(), 14.4, {5.0});
+  shaft.kind = FeatureKind::circle;
+  const std::vector<FittedFeature> features{feature(shaft)};
+  for (const K kind : {K::line_profile, K::surface_profile}) {
+    PlannedCharacteristic c = measured::characteristic(kind, {"shaft"});
+    c.floating = true;
+    const auto refused = evaluate(c, features);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().front().id, "place-not-told"_id);
+    EXPECT_THAT(refused.error().front().message, HasSubstr("'shaft'"));
+    // 14.4 mm (1 / cos 1 deg - 1)
+    EXPECT_THAT(refused.error().front().message, HasSubstr("2.19 um"));
+  }
+  // A row of points on a face leaves a turn about itself open, which changes nothing.
+  const auto edge = measured::line("edge", {0, -20, 5}, Vec3::UnitX(), -Vec3::UnitY());
+  const std::vector<FittedFeature> row{feature(edge, turned(Vec3(0, 0.6, 0.8), 0.03))};
+  PlannedCharacteristic c = measured::characteristic(K::line_profile, {"edge"});
+  c.floating = true;
+  EXPECT_NEAR(value_of(c, row), 0.0, 1e-9);
 }
 
 TEST(Form, HasFourParameters) {

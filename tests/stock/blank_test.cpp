@@ -1,8 +1,9 @@
-// Lofts of rectangles as blanks: rays, normals, volume, and what is no body.
+// Lofts of rectangles as blanks: rays, normals, volume, and what is no body; how far blanks reach.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "stock/mesh/surface_mesh.hpp"
@@ -88,6 +89,18 @@ TEST(LoftBlank, SaysWhatIsNoBody) {
   EXPECT_NE(message({{0, 3, 3}, {1, 3, 3}, {1, 2, 2}, {1, 1, 1}, {2, 1, 1}})
                 .find("has two sections already"),
             std::string::npos);
+}
+
+TEST(Blank, OfAKilometreIsRefused) {
+  EXPECT_TRUE(Blank::make(BoxShape{100.0, 100.0, 1e5}, Vec3::Zero()));
+  for (const auto& [shape, origin] : std::vector<std::pair<BlankShape, Vec3>>{
+           {BoxShape{100.0, 100.0, 1e6}, Vec3::Zero()},
+           {FrustumShape{55.0, 55.0, 36.0}, Vec3(0.0, 0.0, -1e300)},
+           {FrustumShape{1e9, 55.0, 36.0}, Vec3::Zero()}}) {
+    const auto made = Blank::make(shape, origin);
+    ASSERT_FALSE(made);
+    EXPECT_EQ(made.error().front().id, "blank-too-far"_id);
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "stock/solid/removal.hpp"
@@ -55,6 +56,25 @@ TEST(BodyCollision, OfAShankInASlotDeeperThanItsFlutes) {
   EXPECT_EQ(found[0].source_line, 10U);
   EXPECT_EQ(found[0].tool, 1);
   EXPECT_NEAR(found[0].depth, 3.0, 0.03);
+}
+
+// Those deeper than the body's radius are found by fewer rays, and as deep.
+TEST(BodyCollision, OfABodyThatIsDeepInTheMaterial) {
+  for (const double floor : {-9.0, -15.0, -19.0}) {
+    const auto shank = of_slot({floor}, kShank), holder = of_slot({floor}, kHolder);
+    ASSERT_EQ(shank.size(), 1U) << floor;
+    ASSERT_EQ(holder.size(), 1U) << floor;
+    // No deeper than it is wide.
+    EXPECT_NEAR(shank[0].depth, std::min(-6.0 - floor, 10.0), 0.03);
+    EXPECT_NEAR(holder[0].depth, -6.0 - floor, 0.03);
+  }
+  // Blocks of both kinds that follow each other make one collision.
+  const auto path = path_through(
+      std::vector<Vec3>{{-70, 0, -9}, {-20, 0, -9}, {20, 0, -15}, {30, 0, -15}, {40, 0, -19}});
+  const auto found = find_body_collisions(cut(path, end_mill(10.0, 6.0)), {kShank});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].source_line, 10U);
+  EXPECT_EQ(found[0].last_line, 40U);
 }
 
 // Nothing is stated but flute_length. The shank begins 6 mm above the tip: 3 mm below the top.
