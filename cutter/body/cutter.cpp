@@ -160,6 +160,26 @@ Result<Body> holder_body(const CutterSpec& spec, double bottom) {
   return stack.body();
 }
 
+// Twice what the largest tools of the largest machines have: wider ones are slips, which would
+// reach all of a part in every block.
+std::optional<Diagnostic> too_large(const Cutter& cutter) {
+  static constexpr double kWidest = 1000.0, kLongest = 10'000.0;  // mm
+  if (const double length = cutter.spec().length.value; length > kLongest) {
+    return error("cutter-size"_id, fmt::format("the tool is {:g} mm long", length),
+                 fmt::format("at most {:g} mm", kLongest));
+  }
+  const auto too_wide = [](const char* what, const Body& body) {
+    return error("cutter-size"_id,
+                 fmt::format("the {} is {:g} mm wide", what, 2.0 * body.max_radius()),
+                 fmt::format("at most {:g} mm", kWidest));
+  };
+  const auto is_wide = [](const Body& body) { return 2.0 * body.max_radius() > kWidest; };
+  if (is_wide(cutter.body())) return too_wide("cutter", cutter.body());
+  if (cutter.shank() && is_wide(*cutter.shank())) return too_wide("shank", *cutter.shank());
+  if (cutter.holder() && is_wide(*cutter.holder())) return too_wide("holder", *cutter.holder());
+  return std::nullopt;
+}
+
 }  // namespace
 
 Result<Cutter> Cutter::make(const CutterSpec& spec) {
@@ -213,6 +233,7 @@ Result<Cutter> Cutter::make(const CutterSpec& spec) {
     if (!holder) return holder.error();
     cutter.holder_ = *std::move(holder);
   }
+  if (auto wrong = too_large(cutter)) return *std::move(wrong);
   return cutter;
 }
 

@@ -5,10 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
+#include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
+#include "cutter/search/ray_search.hpp"
 #include "cutter/sweep/segment_motion.hpp"
 #include "cutter/sweep/swept_box.hpp"
 #include "stock/collision/collision.hpp"
@@ -24,6 +29,13 @@ using kinematics::PathBlock;
 using kinematics::PathKind;
 using kinematics::PathSegment;
 using kinematics::ToolPath;
+
+// mm of material within a body. What the body covers when it is shrunk by the margin it covers with
+// the margin on both sides, or all that there is of the material.
+constexpr double kEnough = 0.5 * kCollisionMargin;
+
+// Passages of which their whole sweep is asked first.
+constexpr std::size_t kMany = 200;
 
 // One body on one segment, near a ray.
 struct Passage {
@@ -48,6 +60,44 @@ struct Key {
   auto operator<=>(const Key&) const = default;
 };
 
+// All that a body covers on its way, found as what a cutter removes is.
+class BodySweep {
+ public:
+  BodySweep(const ToolPath& path, std::vector<std::uint32_t> segments, const cutter::Body& body)
+      : path_(path), sweep_{&body, cutter::PoseTree(path, std::move(segments), body)} {}
+
+  // Whether it covers enough for a collision of any piece of a ray before the block that takes the
+  // piece away. `all` is what there was of the material before the program.
+  template <class Pieces>
+  [[nodiscard]] bool meets(const Ray& ray, const IntervalSet& all, const Pieces& pieces) const {
+    const auto everything = static_cast<std::uint32_t>(path_.segments.size());
+    const bool reaches_any = std::ranges::any_of(
+        all.intervals(), [&](const Interval& piece) { return covers(ray, piece, everything); });
+    return reaches_any && std::ranges::any_of(pieces(), [&](const RemovedPiece& r) {
+             const auto taken = std::ranges::partition_point(
+                 path_.segments, [&r](const PathSegment& s) { return s.block < r.block; });
+             return covers(ray, r.piece,
+                           static_cast<std::uint32_t>(taken - path_.segments.begin()));
+           });
+  }
+
+ private:
+  [[nodiscard]] bool covers(const Ray& ray, const Interval& piece,
+                            std::uint32_t first_excluded) const {
+    std::vector<cutter::SweptInterval> swept;
+    cutter::extend_swept_interval({&path_, ray, {piece.lo, piece.hi}, first_excluded}, sweep_,
+                                  swept);
+    double length = 0.0;
+    for (const cutter::SweptInterval& s : swept) {
+      length += std::max(0.0, std::min(s.hi.s, piece.hi) - std::max(s.lo.s, piece.lo));
+    }
+    return length >= std::min(kEnough, 0.5 * piece.length());
+  }
+
+  const ToolPath& path_;
+  cutter::ToolSweep sweep_;
+};
+
 // All passages that come near the blank. Their boxes are one scene a body, in which a ray finds
 // them.
 class Passages {
@@ -55,15 +105,20 @@ class Passages {
   // But those that are `known` to collide.
   Passages(const Workpiece& workpiece, const std::vector<NonCuttingBody>& bodies,
            const std::set<Key>& known)
-      : path_(workpiece.removed().path()) {
-    for (const NonCuttingBody& body : bodies) collect(workpiece.blank().bounds(), body, known);
+      : path_(workpiece.removed().path()), blank_(workpiece.blank()) {
+    for (const NonCuttingBody& body : bodies) collect(body, known);
   }
 
   [[nodiscard]] bool empty() const { return bodies_.empty(); }
-  [[nodiscard]] std::vector<Passage> near(const Ray& ray, RaySpan span) const {
+  // But those of bodies that surely meet none of the pieces of material, each before the block that
+  // takes it away; `pieces()` is asked for where that is worth it.
+  template <class Pieces>
+  [[nodiscard]] std::vector<Passage> near(const Ray& ray, RaySpan span,
+                                          const Pieces& pieces) const {
     std::vector<Passage> found;
     const BoxCrossing crossing(ray);
     for (const BodyBoxes& each : bodies_) {
+      if (each.sweep && !each.sweep->meets(ray, blank_.along(ray, span), pieces)) continue;
       const auto first = static_cast<std::ptrdiff_t>(found.size());
       each.scene.along(ray, span, [&](std::uint32_t box) {
         found.push_back({each.segments[box], each.body, crossing.within(each.boxes[box], span)});
@@ -100,12 +155,14 @@ class Passages {
  private:
   struct BodyBoxes {
     const NonCuttingBody* body = nullptr;
+    std::optional<BodySweep> sweep{};  // where the body is known as a whole
     std::vector<std::uint32_t> segments{};
     std::vector<Box> boxes{};  // of the segments
     BoxScene scene{};          // of the boxes
   };
 
-  void collect(const BoundingBox& blank, const NonCuttingBody& body, const std::set<Key>& known) {
+  void collect(const NonCuttingBody& body, const std::set<Key>& known) {
+    const BoundingBox blank = blank_.bounds();
     if (body.parts.empty()) return;
     BodyBoxes near_blank{&body};
     for (std::uint32_t i = 0; i < path_.segments.size(); ++i) {
@@ -119,10 +176,13 @@ class Passages {
     }
     if (near_blank.boxes.empty()) return;
     near_blank.scene = BoxScene(near_blank.boxes);
+    if (body.whole && near_blank.boxes.size() > kMany)
+      near_blank.sweep.emplace(path_, near_blank.segments, *body.whole);
     bodies_.push_back(std::move(near_blank));
   }
 
   const ToolPath& path_;
+  const Blank& blank_;
   std::vector<BodyBoxes> bodies_{};
 };
 
@@ -169,21 +229,24 @@ std::vector<Passage> suspects(const Workpiece& workpiece, std::vector<Passage> n
   }
   const IntervalSet left = workpiece.material_along(ray, all, first);
   std::erase_if(near, [&](const Passage& passage) {
-    return left.empty() || length_within(left, passage.span) < 0.5 * kCollisionMargin;
+    return left.empty() || length_within(left, passage.span) < kEnough;
   });
   return near;
 }
 
 void examine(const Workpiece& workpiece, const Timetable& table, const Passages& passages,
              const Ray& ray, RaySpan span, Hits& hits) {
-  std::vector<RemovedPiece> pieces;
-  for (const Passage& passage : suspects(workpiece, passages.near(ray, span), ray)) {
+  std::optional<std::vector<RemovedPiece>> known;
+  const auto pieces = [&]() -> const std::vector<RemovedPiece>& {
+    if (!known) known = history(workpiece, table, ray, span);
+    return *known;
+  };
+  for (const Passage& passage : suspects(workpiece, passages.near(ray, span, pieces), ray)) {
     const IntervalSet covered = passages.core_along(passage, ray);
     if (covered.empty()) continue;
-    if (pieces.empty()) pieces = history(workpiece, table, ray, span);
     const std::uint32_t block = passages.block_index(passage);
     std::vector<Interval> standing;
-    for (const RemovedPiece& r : pieces) {
+    for (const RemovedPiece& r : pieces()) {
       if (r.block > block) standing.push_back(r.piece);
     }
     const IntervalSet met = IntervalSet(std::move(standing)).intersected(covered);
@@ -248,36 +311,72 @@ Collision described(const ToolPath& path, const Key& key, const Longest& hit) {
           .depth = hit.length + kCollisionMargin};
 }
 
-double radius_of(const NonCuttingBody& body) {
-  double radius = 0.0;
-  for (const Profile& part : body.parts) radius = std::max(radius, part.max_radius());
-  return radius;
-}
-
-double pitch_for(const BoundingBox& blank, const std::vector<NonCuttingBody>& bodies) {
+// The fine rays are so far apart, and the few that are asked first.
+struct Pitches {
+  double fine = 0.0, coarse = 0.0;  // mm
+};
+Pitches pitches_for(const BoundingBox& blank, const std::vector<NonCuttingBody>& bodies) {
   const double side = (blank.max - blank.min).maxCoeff();
-  double pitch = side / 60.0;
+  double radius = std::numeric_limits<double>::infinity();
   for (const NonCuttingBody& body : bodies) {
-    for (const Profile& part : body.parts) pitch = std::min(pitch, 0.25 * part.max_radius());
+    for (const Profile& part : body.parts) radius = std::min(radius, part.max_radius());
   }
-  return std::max(pitch, side / 250.0);
+  const double fine = std::max(std::min(side / 60.0, 0.25 * radius), side / 250.0);
+  // Wherever it is, a body in the material is met by rays a radius apart.
+  return {fine, std::clamp(radius, fine, 8.0 * fine)};
 }
 
-// Of overlaps that few rays have found along each axis those deeper than the body's radius: nobody
-// asks how deep these are to the last bit, and a body that is in the material all the way would be
-// followed along each of many rays.
-Hits deep_ones(const std::array<Hits, 3>& families, const ToolPath& path,
-               const std::vector<NonCuttingBody>& bodies) {
-  std::map<std::pair<int, CollisionBody>, double> radius;
-  for (const NonCuttingBody& body : bodies) radius[{body.tool, body.body}] = radius_of(body);
-  Hits deep = thinnest(families);
-  std::erase_if(deep, [&](const auto& found) {
-    const Key& key = found.first;
-    return found.second.length <= radius.at({path.blocks[key.block].tool, key.body}) ||
-           std::ranges::any_of(families,
-                               [&key](const Hits& family) { return !family.contains(key); });
-  });
-  return deep;
+// Blocks that follow each other with one body in the material: one collision.
+struct Stretch {
+  CollisionKind kind = CollisionKind::body_in_material;
+  int tool = 0;
+  std::vector<std::pair<Key, Longest>> hits{};  // block after block
+};
+std::vector<Stretch> stretches_of(const Hits& hits, const ToolPath& path) {
+  std::vector<Stretch> found;
+  std::map<CollisionBody, std::size_t> open;
+  for (const auto& hit : hits) {
+    const Collision here = described(path, hit.first, hit.second);
+    const auto before = open.find(hit.first.body);
+    if (before != open.end()) {
+      Stretch& last = found[before->second];
+      if (last.hits.back().first.block + 1 == hit.first.block && last.kind == here.kind &&
+          last.tool == here.tool) {
+        last.hits.emplace_back(hit);
+        continue;
+      }
+    }
+    open[hit.first.body] = found.size();
+    found.push_back({here.kind, here.tool, {hit}});
+  }
+  return found;
+}
+
+Collision described(const ToolPath& path, const Stretch& stretch) {
+  const auto deepest =
+      std::ranges::max_element(stretch.hits, {}, [](const auto& hit) { return hit.second.length; });
+  Collision whole = described(path, stretch.hits.front().first, deepest->second);
+  whole.last_line = path.blocks[stretch.hits.back().first.block].source_line;
+  return whole;
+}
+
+// Of blocks that few rays have shown to collide, along each axis, those that are not among the
+// deepest of their stretch: what the whole stretch reports is told by others. A body that is in the
+// material for thousands of blocks would be followed along each of many rays.
+Hits told_by_few(const std::array<Hits, 3>& families, const ToolPath& path) {
+  constexpr std::size_t kDeepest = 16;
+  Hits told;
+  for (Stretch& stretch : stretches_of(thinnest(families), path)) {
+    std::ranges::stable_sort(stretch.hits, std::greater(),
+                             [](const auto& hit) { return hit.second.length; });
+    for (std::size_t k = kDeepest; k < stretch.hits.size(); ++k) {
+      const auto& hit = stretch.hits[k];
+      const bool is_in_all = std::ranges::all_of(
+          families, [&hit](const Hits& family) { return family.contains(hit.first); });
+      if (is_in_all) told.insert(hit);
+    }
+  }
+  return told;
 }
 
 }  // namespace
@@ -288,34 +387,13 @@ std::vector<Collision> find_body_collisions(const Workpiece& workpiece,
   if (passages.empty()) return {};
   const ToolPath& path = workpiece.removed().path();
   const Timetable table(path);
-  const double pitch = pitch_for(workpiece.blank().bounds(), bodies);
-  constexpr double kCoarse = 4.0;  // a sixteenth of the rays
-  Hits hits = deep_ones(hits_of(workpiece, table, passages, kCoarse * pitch), path, bodies);
+  const Pitches pitch = pitches_for(workpiece.blank().bounds(), bodies);
+  Hits hits = told_by_few(hits_of(workpiece, table, passages, pitch.coarse), path);
   std::set<Key> known;
   for (const auto& [key, hit] : hits) known.insert(key);
-  hits.merge(thinnest(hits_of(workpiece, table, Passages(workpiece, bodies, known), pitch)));
-  // Blocks that follow each other make one collision, of each body.
+  hits.merge(thinnest(hits_of(workpiece, table, Passages(workpiece, bodies, known), pitch.fine)));
   std::vector<Collision> found;
-  std::map<CollisionBody, std::pair<std::size_t, std::uint32_t>> open;  // its index and last block
-  for (const auto& [key, hit] : hits) {
-    const Collision here = described(path, key, hit);
-    const auto before = open.find(key.body);
-    const bool goes_on = before != open.end() && before->second.second + 1 == key.block &&
-                         found[before->second.first].kind == here.kind &&
-                         found[before->second.first].tool == here.tool;
-    if (!goes_on) {
-      open[key.body] = {found.size(), key.block};
-      found.push_back(here);
-      continue;
-    }
-    Collision& whole = found[before->second.first];
-    before->second.second = key.block;
-    whole.last_line = here.source_line;
-    if (here.depth > whole.depth) {
-      whole.depth = here.depth;
-      whole.point = here.point;
-    }
-  }
+  for (const Stretch& stretch : stretches_of(hits, path)) found.push_back(described(path, stretch));
   return found;
 }
 

@@ -406,7 +406,7 @@ std::vector<NonCuttingBody> non_cutting_bodies(const Workpiece& workpiece) {
   std::vector<NonCuttingBody> bodies;
   const auto add = [&](int tool, CollisionBody which, const std::optional<cutter::Body>& body) {
     if (!body) return;
-    bodies.push_back({tool, which, {body->parts().begin(), body->parts().end()}});
+    bodies.push_back({tool, which, {body->parts().begin(), body->parts().end()}, body});
   };
   for (const int number : numbers) {
     add(number, CollisionBody::shank, swept.tool(number).shank());

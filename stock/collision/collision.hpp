@@ -13,13 +13,14 @@
 //            the cutter's radius between rings and an eighth of a right angle around; a twelfth of
 //            the diameter where it turns, but not less than 1/128 of the move's box; for shanks and
 //            holders a quarter of their radius, but not less than 1/250 of the blank's longest
-//            side, four times that far apart for what is deeper than the radius. A depth is as
-//            exact as the densest of them
+//            side. A depth is as exact as the densest of them; in long stretches of blocks it is
+//            that of the sixteen that are deepest along rays up to eight times as far apart
 // Threads  : find_collisions() runs on oneTBB; the same bits for any number of threads
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,7 @@ struct NonCuttingBody {
   int tool = 0;
   CollisionBody body = CollisionBody::holder;
   std::vector<cutter::Profile> parts{};
+  std::optional<cutter::Body> whole{};  // not needed: makes long programs fast
 };
 
 // The shanks and holders of the tools that the program uses.

@@ -241,6 +241,27 @@ TEST(Cutter, ShankAndHolderStandBetweenFlutesAndGaugePoint) {
   EXPECT_NEAR(cutter.holder()->height(), 100.0, 0.0);
 }
 
+TEST(Cutter, OfAMetreAndMoreIsRefused) {
+  CutterSpec spec{.diameter = {10.0}, .length = {100.0}, .flute_length = {10.0}};
+  const auto complaint = [&spec] {
+    const auto cutter = Cutter::make(spec);
+    return cutter ? "" : cutter.error().front().message;
+  };
+  spec.holder = {{60.0, 40.0, 1000.0}};
+  EXPECT_EQ(complaint(), "");
+  spec.holder = {{60.0, 4000.0, 40.0}};
+  EXPECT_EQ(complaint(), "the holder is 4000 mm wide");
+  spec.holder.clear();
+  spec.shank_diameter = {1200.0};
+  EXPECT_EQ(complaint(), "the shank is 1200 mm wide");
+  spec.shank_diameter = {};
+  spec.diameter = {1200.0};
+  EXPECT_EQ(complaint(), "the cutter is 1200 mm wide");
+  spec.diameter = {10.0};
+  spec.length = {20e3};
+  EXPECT_EQ(complaint(), "the tool is 20000 mm long");
+}
+
 // Radius 5 less a relief of 0.05 mm, from the flutes to the holder or the gauge point.
 TEST(Cutter, Fault2_24_HasAShankAboveFlutesThatAreStated) {
   CutterSpec spec{.diameter = {10.0}, .length = {100.0}, .flute_length = {10.0}};

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "stock/solid/removal.hpp"
+#include "tests/law_count.hpp"
 #include "tests/stock/milling.hpp"
 
 namespace frustum::stock {
@@ -58,7 +59,6 @@ TEST(BodyCollision, OfAShankInASlotDeeperThanItsFlutes) {
   EXPECT_NEAR(found[0].depth, 3.0, 0.03);
 }
 
-// Those deeper than the body's radius are found by fewer rays, and as deep.
 TEST(BodyCollision, OfABodyThatIsDeepInTheMaterial) {
   for (const double floor : {-9.0, -15.0, -19.0}) {
     const auto shank = of_slot({floor}, kShank), holder = of_slot({floor}, kHolder);
@@ -196,6 +196,39 @@ TEST(CollisionLaws, GiveTheSameBitsForAnyNumberOfThreads) {
   }
   EXPECT_FALSE(cutter.empty());
   EXPECT_FALSE(body.empty());
+}
+
+// Whole sweeps tell where single passages need not be asked, and nothing else.
+TEST(CollisionLaws, OfLongProgramsAreThoseOfEachPassage) {
+  const auto seeds = proof::law_count(8U, 2U);
+  std::size_t found = 0;
+  for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
+    const auto tool = cutter::Cutter::make({.diameter = {10.0},
+                                            .length = {40.0},
+                                            .flute_length = {6.0},
+                                            .holder = {{20.0, 24.0, 60.0}}});
+    ASSERT_TRUE(tool);
+    // Small steps all over the box, 250 of them.
+    auto poses = random_path(seed, 250).poses;
+    for (std::size_t i = 1; i < poses.size(); ++i) {
+      poses[i] = {poses[i - 1].tip + 0.1 * (poses[i].tip - poses[i - 1].tip),
+                  (poses[i - 1].axis + 0.1 * poses[i].axis).normalized()};
+    }
+    const Workpiece part = cut(path_through(poses), *tool);
+    std::vector<NonCuttingBody> bodies = non_cutting_bodies(part);
+    ASSERT_EQ(bodies.size(), 2U);
+    const auto fast = find_body_collisions(part, bodies);
+    for (NonCuttingBody& body : bodies) body.whole.reset();
+    const auto slow = find_body_collisions(part, bodies);
+    found += slow.size();
+    ASSERT_EQ(fast.size(), slow.size());
+    for (std::size_t i = 0; i < fast.size(); ++i) {
+      EXPECT_EQ(fast[i].block, slow[i].block);
+      EXPECT_EQ(fast[i].last_line, slow[i].last_line);
+      EXPECT_EQ(fast[i].depth, slow[i].depth);
+    }
+  }
+  EXPECT_GT(found, 0U);
 }
 
 // Each stroke cuts 0.05 mm deeper and comes back in rapid where it has cut; one comes back too low.
