@@ -1,5 +1,5 @@
 // Populations against whole trials: the program is cut again by every machine drawn.
-#include "trials/population.hpp"
+#include "trials/population/population.hpp"
 
 #include <gtest/gtest.h>
 #include <oneapi/tbb/task_arena.h>

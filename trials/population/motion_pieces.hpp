@@ -19,7 +19,7 @@
 
 #include "kinematics/controller/commanded_program.hpp"
 #include "kinematics/controller/setup.hpp"
-#include "trials/lane_chain.hpp"
+#include "trials/population/lane_chain.hpp"
 
 namespace frustum::trials {
 

@@ -19,11 +19,11 @@
 #include <string>
 #include <vector>
 
-#include "trials/lane_chain.hpp"
-#include "trials/lane_contact.hpp"
-#include "trials/local_contact.hpp"
-#include "trials/motion_pieces.hpp"
-#include "trials/population_laws.hpp"
+#include "trials/population/lane_chain.hpp"
+#include "trials/population/lane_contact.hpp"
+#include "trials/population/local_contact.hpp"
+#include "trials/population/motion_pieces.hpp"
+#include "trials/population/population_laws.hpp"
 #include "trials/trial.hpp"
 
 namespace frustum::trials {

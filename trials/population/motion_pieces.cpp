@@ -1,4 +1,4 @@
-#include "trials/motion_pieces.hpp"
+#include "trials/population/motion_pieces.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,7 @@
 
 #include "cutter/body/body.hpp"
 #include "kinematics/model/tool_pose.hpp"
-#include "trials/lane_contact.hpp"
+#include "trials/population/lane_contact.hpp"
 
 namespace frustum::trials {
 

@@ -19,7 +19,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "trials/lanes.hpp"
+#include "trials/population/lanes.hpp"
 
 namespace frustum::trials {
 

@@ -1,4 +1,4 @@
-#include "trials/local_contact.hpp"
+#include "trials/population/local_contact.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cutter/search/swept_cutter.hpp"
-#include "trials/middle_contact.hpp"
+#include "trials/population/middle_contact.hpp"
 
 namespace frustum::trials {
 namespace {

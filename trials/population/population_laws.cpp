@@ -1,4 +1,4 @@
-#include "trials/population_laws.hpp"
+#include "trials/population/population_laws.hpp"
 
 #include <fmt/format.h>
 

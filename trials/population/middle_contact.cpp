@@ -1,4 +1,4 @@
-#include "trials/middle_contact.hpp"
+#include "trials/population/middle_contact.hpp"
 
 #include <algorithm>
 #include <cmath>

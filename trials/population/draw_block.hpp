@@ -14,8 +14,8 @@
 #include "metrology/characteristic/fitted_feature.hpp"
 #include "metrology/plan/strategy.hpp"
 #include "metrology/probing/cmm_errors.hpp"
-#include "trials/follow_plan.hpp"
-#include "trials/population.hpp"
+#include "trials/population/follow_plan.hpp"
+#include "trials/population/population.hpp"
 
 namespace frustum::trials {
 

@@ -1,4 +1,4 @@
-#include "trials/follow_plan.hpp"
+#include "trials/population/follow_plan.hpp"
 
 #include <fmt/format.h>
 
@@ -12,9 +12,9 @@
 
 #include "cutter/sweep/segment_motion.hpp"
 #include "metrology/plan/strategy.hpp"
-#include "trials/column_motion.hpp"
-#include "trials/middle_contact.hpp"
-#include "trials/window_bounds.hpp"
+#include "trials/population/column_motion.hpp"
+#include "trials/population/middle_contact.hpp"
+#include "trials/population/window_bounds.hpp"
 
 namespace frustum::trials {
 namespace {
@@ -34,7 +34,7 @@ constexpr std::uint32_t kMostWindow = 8;
 // A window is wide enough when machines at this share of the proof's limits are proven; they drift
 // by so many standard deviations.
 constexpr double kShare = 0.7;
-constexpr double kDeviations = 3.5;
+constexpr double kDriftDeviations = 3.5;
 
 // A contact of the middle machine as its trial found it.
 struct Found {
@@ -352,7 +352,7 @@ class Planner {
   // machines.
   void widen(ProbeWindow& window, std::span<const MotionPiece> pieces, std::size_t own,
              const ContactPlace& at, const LaneFace& face, int tool) {
-    const double drift = kDeviations * bounds_.drift_deviation(at);
+    const double drift = kDriftDeviations * bounds_.drift_deviation(at);
     std::size_t first = own, last = own;
     const auto is_enough = [&](const SideBound& side) {
       return side.at_end > 0.0 && side.closeness.per_scale + side.closeness.per_drift * drift +

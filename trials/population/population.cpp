@@ -1,4 +1,4 @@
-#include "trials/population.hpp"
+#include "trials/population/population.hpp"
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "metrology/plan/strategy.hpp"
-#include "trials/draw_block.hpp"
+#include "trials/population/draw_block.hpp"
 #include "trials/sensitivity.hpp"
 
 namespace frustum::trials {

@@ -1,4 +1,4 @@
-#include "trials/draw_block.hpp"
+#include "trials/population/draw_block.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "metrology/characteristic/datum_system.hpp"
 #include "metrology/characteristic/measured_values.hpp"
 #include "metrology/cmm.hpp"
-#include "trials/lane_kernel.hpp"
+#include "trials/population/lane_kernel.hpp"
 #include "trials/sensitivity.hpp"
 
 namespace frustum::trials {

@@ -35,7 +35,7 @@
 #include "metrology/cmm.hpp"
 #include "metrology/measurement.hpp"
 #include "programs/test_piece.hpp"
-#include "trials/population_laws.hpp"
+#include "trials/population/population_laws.hpp"
 #include "trials/surface_gain.hpp"
 #include "trials/trial.hpp"
 

@@ -17,7 +17,7 @@
 #include "cutter/body/cutter.hpp"
 #include "kinematics/model/tool_pose.hpp"
 #include "metrology/probing/ball_contact.hpp"
-#include "trials/lane_contact.hpp"
+#include "trials/population/lane_contact.hpp"
 
 namespace frustum::trials {
 
