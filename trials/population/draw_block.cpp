@@ -194,7 +194,7 @@ void DrawBlock::probe_point(std::size_t feature, std::size_t index, std::size_t 
   }
   const FollowedPoint& point = common_.plan.points[common_.plan.first_point[feature] + index];
   const BallApproach approach = approach_of(lane, feature, index);
-  if (common_.options.sweeps_near_by && !point.surroundings.empty()) {
+  if (!point.surroundings.empty()) {
     if (const auto local = local_travel(point, lane_index, approach)) {
       ++lane.member->local;
       travel = *local;

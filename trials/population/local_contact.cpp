@@ -88,7 +88,7 @@ class LocalProbe {
     const auto contact = swept_.end_of_void(ray, 0.0, length_mm);
     if (!contact || contact->s >= length_mm) return std::nullopt;
     stays_inside_ = stays_inside_ && is_inner_[contact->segment];
-    return metrology::Touch{ray.at(contact->s), contact->normal, {}};
+    return metrology::Touch{ray.at(contact->s), -contact->normal, {}};  // out of the material
   }
   [[nodiscard]] bool stays_inside() const { return stays_inside_; }
 

@@ -44,9 +44,6 @@ namespace frustum::trials {
 struct PopulationOptions {
   double path_bound = 1e-6;  // mm, of what is swept locally or whole
   bool follow = true;        // false: every draw is a whole trial; for comparison
-  // Points that cannot be followed are asked of the cutter swept near by, not of the whole program:
-  // a hundred times faster, but where facets of the program meet up to 0.3 um off.
-  bool sweeps_near_by = false;
 };
 
 // One machine of the population and the part that it makes.
