@@ -63,6 +63,8 @@ class DrawBlock {
   void probe(std::size_t feature);
   void probe_point(std::size_t feature, std::size_t index, std::size_t lane,
                    const LaneContact* contact);
+  [[nodiscard]] std::optional<double> travel_on_edge(const FollowedPoint& point, std::size_t lane,
+                                                     const metrology::BallApproach& approach) const;
   [[nodiscard]] std::optional<double> local_travel(const FollowedPoint& point, std::size_t lane,
                                                    const metrology::BallApproach& approach);
   void fit(std::size_t feature, Lane& lane);
