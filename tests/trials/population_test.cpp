@@ -136,7 +136,7 @@ TEST(Population, SweepingNearByAsksHardlyAPointOfTheWholeProgram) {
   const auto cone = ConePopulation::of(40, false);
   const Population population = cone.population();
   std::size_t whole = 0, local = 0;
-  const auto draws = cone.draws(12);
+  const auto draws = cone.draws(3);
   for (const PopulationMember& member : population.evaluate(draws)) {
     EXPECT_EQ(member.values.size(), 3);
     whole += member.whole;

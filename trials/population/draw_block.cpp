@@ -84,6 +84,7 @@ void DrawBlock::evaluate(std::span<const metrology::CmmModel> cmms, bool travels
     const Eigen::VectorXd values = values_of(*measurement);
     lane.member->values.assign(values.begin(), values.end());
     if (!travels) continue;
+    lane.member->workpiece_from_datum = lane.workpiece_from_datum;
     for (const auto& feature : lane.travels) {
       lane.member->travels.insert(lane.member->travels.end(), feature.begin(), feature.end());
     }

@@ -62,10 +62,15 @@ class Planner {
     plan_.largest_motion = bounds_.largest_motion();
   }
 
-  FollowPlan plan() && {
+  FollowPlan plan(FollowScope scope) && {
     find_points();
-    find_surroundings();
     if (!plan_.chain->carries_all()) refuse_all("the errors have a volumetric grid");
+    const auto is_refused = [](const FollowedPoint& point) { return !point.why_not.empty(); };
+    if (scope == FollowScope::all && std::ranges::any_of(plan_.points, is_refused)) {
+      std::erase_if(plan_.points, [&](const FollowedPoint& point) { return !is_refused(point); });
+      return std::move(plan_);
+    }
+    find_surroundings();
     cut_pieces();
     for (std::size_t i = 0; i < plan_.points.size(); ++i) {
       if (found_[i] && plan_.points[i].why_not.empty()) follow(plan_.points[i], *found_[i], i);
@@ -372,8 +377,8 @@ class Planner {
     return state;
   }
 
-  // The piece that lets the ball go deepest; where none meets its line, that with the cutter nearest
-  // to the contact.
+  // The piece that lets the ball go deepest; where none meets its line, that with the cutter
+  // nearest to the contact.
   [[nodiscard]] std::size_t deepest_of(std::span<const MotionPiece> pieces, const LaneFace& face,
                                        const CentreLine& line, double travel,
                                        const Vec3& touched) const {
@@ -476,8 +481,8 @@ class Planner {
 
 FollowPlan follow_plan(const kinematics::Machine& machine, const programs::TestPiece& piece,
                        const CommandedPiece& commanded, const PopulationLaws& laws,
-                       const Trial& middle) {
-  return Planner(machine, piece, commanded, laws, middle).plan();
+                       const Trial& middle, FollowScope scope) {
+  return Planner(machine, piece, commanded, laws, middle).plan(scope);
 }
 
 }  // namespace frustum::trials

@@ -248,6 +248,13 @@ Result<PopulationLaws> PopulationLaws::of(const Machine& machine,
   return std::move(unspanned).error();
 }
 
+PopulationLaws PopulationLaws::of(GeometricErrors fixed, std::vector<ErrorColumn> columns) {
+  PopulationLaws laws;
+  laws.fixed_ = std::move(fixed);
+  laws.columns_ = std::move(columns);
+  return laws;
+}
+
 Weights PopulationLaws::weights(std::span<const ErrorEntry> drawn) const {
   Weights weights;
   weights.reserve(columns_.size());
