@@ -1,5 +1,6 @@
 #include "trials/population/edge_contact.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
