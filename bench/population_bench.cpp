@@ -7,7 +7,7 @@
 #include "kinematics/errors/error_draw.hpp"
 #include "kinematics/errors/error_table.hpp"
 #include "programs/cone/cone_frustum.hpp"
-#include "trials/population.hpp"
+#include "trials/population/population.hpp"
 
 namespace frustum {
 namespace {

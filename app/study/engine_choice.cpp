@@ -118,8 +118,11 @@ std::optional<double> smallest_half_width(const StudyFile& study) {
   return smallest;
 }
 
-ChosenEngine full_because(std::string reason) {
+ChosenEngine full_because(const StudyModel& model, std::string reason) {
   ChosenEngine engine;
+  if (const std::string about = model.about_full(); !about.empty()) {
+    reason += (reason.empty() ? "" : "; ") + about;
+  }
   engine.result = {.name = "full", .reason = std::move(reason)};
   return engine;
 }
@@ -141,10 +144,10 @@ std::vector<double> ChosenEngine::bounds(double largest_of_draws) const {
 
 Result<ChosenEngine> choose_engine(const StudyFile& study, const StudyModel& model,
                                    const std::function<void(double)>& progress) {
-  if (study.engine == EngineKind::full) return full_because("");
+  if (study.engine == EngineKind::full) return full_because(model, "");
   if (const std::string against = model.against_linear(); !against.empty()) {
     if (study.engine == EngineKind::linear) return refused(against);
-    return full_because(against);
+    return full_because(model, against);
   }
   const auto sampler = Sampler::make(study, model, EngineKind::full);
   if (!sampler) return sampler.error();
@@ -152,10 +155,10 @@ Result<ChosenEngine> choose_engine(const StudyFile& study, const StudyModel& mod
   if (!drawn.failure.empty()) {
     const std::string reason = "a control draw failed: " + drawn.failure;
     if (study.engine == EngineKind::linear) return refused(reason);
-    return full_because(reason);
+    return full_because(model, reason);
   }
   if (!drawn.refusal.empty()) {
-    ChosenEngine full = full_because(drawn.refusal);
+    ChosenEngine full = full_because(model, drawn.refusal);
     full.result.controls = static_cast<std::uint32_t>(drawn.values.front().full.size());
     return full;
   }
@@ -180,7 +183,7 @@ Result<ChosenEngine> choose_engine(const StudyFile& study, const StudyModel& mod
   }
   const studies::EngineChoice choice = studies::automatic_engine(facts);
   if (choice.kind == EngineKind::linear) return engine;
-  ChosenEngine full = full_because(choice.reason);
+  ChosenEngine full = full_because(model, choice.reason);
   full.result.controls = controls.draws;
   full.result.growth = controls.growth;
   return full;

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <optional>
 
 #include "core/units.hpp"
 #include "metrology/cmm.hpp"
 #include "metrology/plan/strategy.hpp"
 #include "studies/linear_engine.hpp"
+#include "trials/population/population.hpp"
 #include "trials/surface_gain.hpp"
 
 namespace frustum::app {
@@ -36,10 +39,13 @@ trials::TrialOptions options_of(const Job& job) {
 }
 
 // Deviation from the nominal where there is one, um or urad.
-double shown(const metrology::CharacteristicResult& c) {
+double shown(const metrology::CharacteristicResult& c, double value) {
   const double nominal = c.nominal ? metrology::internal_value(*c.nominal, c.unit) : 0.0;
   const double scale = metrology::is_angle(c) ? kUradPerRad : kUmPerMm;
-  return (metrology::internal_value(c) - nominal) * scale;
+  return (value - nominal) * scale;
+}
+double shown(const metrology::CharacteristicResult& c) {
+  return shown(c, metrology::internal_value(c));
 }
 
 std::vector<double> values_of(const metrology::Measurement& measurement) {
@@ -122,8 +128,16 @@ class PieceModel final : public StudyModel {
     return hashes;
   }
 
+  std::string about_full() const override {
+    if (population() != nullptr) return {};
+    return "every draw is a whole trial: " + against_following_;
+  }
+
   std::vector<DrawOutcome> full(std::span<const DrawnMachine> draws,
                                 const EvaluationRequest& request) const override {
+    // Single points with the CMM's noise are those of a trial.
+    const bool is_trial = request.points && study_.measurement.noise;
+    if (!is_trial && population() != nullptr) return followed(draws, request);
     std::vector<DrawOutcome> outcomes(draws.size());
     tbb::parallel_for(std::size_t{0}, draws.size(),
                       [&](std::size_t i) { outcomes[i] = whole_trial(draws[i], request); });
@@ -153,6 +167,89 @@ class PieceModel final : public StudyModel {
       errors = errors.plus(factors_.columns()[j].unit, weights[static_cast<Eigen::Index>(j)]);
     }
     return errors;
+  }
+
+  // Made when the first draw asks for it; nullptr where every draw must be a whole trial.
+  const trials::Population* population() const {
+    std::call_once(population_once_, [this] { make_population(); });
+    return population_ ? &*population_ : nullptr;
+  }
+
+  void make_population() const {
+    const Job& job = *study_.job;
+    if (!factors_.nonlinear().empty()) {
+      against_following_ = "not linear in what is drawn: " + factors_.nonlinear().front();
+      return;
+    }
+    if (job.controller.servo_lag) {
+      against_following_ = "the drives lag behind what is commanded";
+      return;
+    }
+    const Eigen::VectorXd mean = factors_.weight_moments().mean;
+    const std::vector<double> largest = factors_.largest_weights();
+    std::vector<trials::ErrorColumn> columns;
+    for (const studies::Column& column : factors_.columns()) {
+      const std::size_t j = columns.size();
+      trials::ErrorColumn one;
+      one.error = column.name;
+      one.middle = mean[static_cast<Eigen::Index>(j)];
+      one.most = largest[j];
+      one.unit = column.unit;
+      columns.push_back(std::move(one));
+    }
+    auto made =
+        trials::Population::make(job.machine, job.piece, commanded_,
+                                 trials::PopulationLaws::of(factors_.fixed(), std::move(columns)),
+                                 {.path_bound = job.path_bound, .refuse_whole = true});
+    if (made) {
+      population_ = *std::move(made);
+    } else {
+      against_following_ = joined(made.error());
+    }
+  }
+
+  std::vector<DrawOutcome> followed(std::span<const DrawnMachine> draws,
+                                    const EvaluationRequest& request) const {
+    std::vector<trials::Weights> weights;
+    for (const DrawnMachine& machine : draws) {
+      const Eigen::VectorXd of_draw = weights_of(machine, request.scale);
+      weights.emplace_back(of_draw.begin(), of_draw.end());
+    }
+    trials::EvaluateOptions options{.travels = request.points};
+    if (study_.measurement.noise) {
+      options.cmm = [&](std::size_t i) {
+        metrology::CmmModel cmm = study_.job->cmm;
+        cmm.draw = draws[i].draw;
+        return cmm;
+      };
+    }
+    std::vector<DrawOutcome> outcomes;
+    for (const trials::PopulationMember& member : population_->evaluate(weights, options)) {
+      outcomes.push_back(outcome_of(member));
+    }
+    return outcomes;
+  }
+
+  DrawOutcome outcome_of(const trials::PopulationMember& member) const {
+    DrawOutcome outcome;
+    if (!member.failure.empty()) {
+      outcome.failure = joined(member.failure);
+      return outcome;
+    }
+    const auto& characteristics = middle_.measurement.characteristics;
+    for (std::size_t i = 0; i < member.values.size(); ++i) {
+      outcome.values.push_back(shown(characteristics[i], member.values[i]));
+    }
+    auto travel = member.travels.begin();
+    for (const auto& feature : study_.job->piece.plan.features) {
+      if (travel == member.travels.end()) break;
+      for (const metrology::PlannedPoint& planned : metrology::planned_points(feature)) {
+        const Vec3 at =
+            member.workpiece_from_datum.point(planned.point + *travel++ * planned.normal);
+        outcome.points.push_back(planned.normal.dot(at - planned.point) * kUmPerMm);
+      }
+    }
+    return outcome;
   }
 
   DrawOutcome whole_trial(const DrawnMachine& machine, const EvaluationRequest& request) const {
@@ -294,6 +391,9 @@ class PieceModel final : public StudyModel {
       middle_;  // of the machine with the errors that are not drawn, by a CMM without errors
   Eigen::MatrixXd gains_{};
   std::string against_linear_{};
+  mutable std::once_flag population_once_{};
+  mutable std::optional<trials::Population> population_{};
+  mutable std::string against_following_{};
 };
 
 // The nominal machine must make a good part, or the study says nothing about machines.

@@ -1,6 +1,8 @@
 // The model of a study of a job: many machines cut and measure its part.
 //
-// Model    : full: the errors of the draw, then run_trial() of the piece as it was commanded once.
+// Model    : full: the machines of the draws cut and measure the piece as it was commanded once
+//            (trials/population/population.hpp); where a point of the plan cannot be followed from
+//            machine to machine, run_trial() for each draw.
 //            linear: every measured point of the machine without the drawn errors moves along its
 //            normal by gains x weights (trials/surface_gain.hpp), and the plan is evaluated again
 // Units    : as study_model.hpp

@@ -60,6 +60,9 @@ class StudyModel {
   // Standard uncertainty of a measured characteristic by the job's CMM; 0: none is stated.
   [[nodiscard]] virtual double measuring_uncertainty(std::size_t characteristic) const = 0;
 
+  // How full() makes its draws, where there is more than one way.
+  [[nodiscard]] virtual std::string about_full() const { return {}; }
+
   // SHA-256 of files with subprograms that the program has opened.
   [[nodiscard]] virtual std::vector<std::string> program_hashes() const { return {}; }
 

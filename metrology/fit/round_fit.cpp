@@ -177,11 +177,13 @@ std::optional<Minimum> nearby_minimum(const NormalisedPoints& local, const Wordi
   const PointBlocks all = PointBlocks::of(local);
   GaussNewton solver(constrained(shifted(*local.expected, Vec3::Zero()), local.constraints), all,
                      local.constraints);
+  // An element so near to the points, for their least extent, is in the valley of the lowest one:
+  // none on the far side of them, or across them, comes as near.
+  constexpr double kNear = 1e-2;
+  const double near = kNear * principal.spread[2];
+  if (!(solver.cost() < near * near * static_cast<double>(all.count))) return std::nullopt;
   solver.descend(6, 1e-2);
-  const double enough = 1e-6 * principal.spread[2] * principal.spread[2];
-  if (implausible(solver.element()) || !(solver.cost() < enough * static_cast<double>(all.count))) {
-    return std::nullopt;
-  }
+  if (implausible(solver.element())) return std::nullopt;
   auto found = settled(std::move(solver), all, local.constraints, wording);
   if (!found || is_doubtful(local, found)) return std::nullopt;
   return *std::move(found);

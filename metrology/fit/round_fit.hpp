@@ -83,7 +83,7 @@ using AxialStarts = std::vector<Element> (*)(const AxialPoints& points);
                                             AxialStarts initial_estimates, AxialStarts all);
 
 // The minimum below the element that is expected, where the points are so near to it that there is
-// nothing to search for, by the measure of at_once.
+// nothing to search for: within a hundredth of their least extent.
 [[nodiscard]] std::optional<Minimum> nearby_minimum(const NormalisedPoints& local,
                                                     const Wording& wording);
 

@@ -88,6 +88,34 @@ TEST_F(StudySystem, DrawsTheMachinesThatRunDraws) {
   EXPECT_EQ(study["engine"]["name"], "full");
 }
 
+// The cone alone, without datums: every contact is followed from the middle machine.
+TEST_F(StudySystem, FollowedMachinesMakeWhatTheirTrialsDo) {
+  write_cone();
+  std::string plan = read(folder_ / "piece/cone.plan.toml"), cone;
+  for (std::size_t at = 0; at < plan.size();) {
+    const std::size_t next = std::min(plan.find("\n[", at), plan.size() - 1);
+    const std::string block = plan.substr(at, next + 1 - at);
+    const bool is_other = block.starts_with("[datum]") || block.starts_with("[[");
+    if (!is_other || block.find("\nname = \"cone\"") != std::string::npos ||
+        block.find("\nname = \"cone.form\"") != std::string::npos) {
+      cone += block;
+    }
+    at = next + 1;
+  }
+  cone.replace(cone.find("\"datum\""), 7, "\"plan\"");
+  write("piece/cone.plan.toml", cone);
+  write_cone_study("");
+  const json study = result_of("study.toml --samples 1 --seed 7");
+  EXPECT_FALSE(study["engine"].contains("reason")) << study["engine"]["reason"];
+  const double followed = find(study["characteristics"], "cone.form")["mean"];
+  write("errors.toml",
+        "title = \"the same\"\nmachine = \"iwf-bc\"\n[errors]\nEX0C = \"uniform "
+        "-10um..10um\"\nEB0C = \"normal 0urad sd 20urad\"\n");
+  const Outcome alone = run("run piece/job.toml --errors errors.toml --draw 7 --json --out out");
+  const json one = find(json::parse(alone.out)["characteristics"], "cone.form");
+  EXPECT_NEAR(followed, one["value"].get<double>(), 0.02);  // um: twice the path's own bound
+}
+
 TEST_F(StudySystem, ReportsWhatItFoundWithIntervals) {
   write_cone();
   write_cone_study("");

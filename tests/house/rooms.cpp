@@ -19,7 +19,7 @@ const std::map<std::string, Room>& rooms() {
       {"stock", {5, {"solid", "dexel", "mesh", "collision", "proof", "polyhedral"}}},
       {"programs", {6, {"cone", "step"}}},
       {"report", {6, {"html", "chart", "picture", "page", "exchange", "sheet"}}},
-      {"trials", {7}},
+      {"trials", {7, {"population"}}},
       {"calibration", {8, {"identify", "design", "compensate"}}},
       {"studies", {8, {"samples"}}},
       {"app", {9, {"job", "study", "view", "command"}}},

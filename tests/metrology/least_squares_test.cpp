@@ -138,6 +138,33 @@ TEST(ConeFit, RecoversExactPartialShortAndFlatCones) {
   }
 }
 
+// Short and long ones, whole turns and arcs, as rough as points near a plan may be.
+TEST(ConeFit, FindsNearThePlanWhatTheSearchFinds) {
+  Draws draws(8);
+  for (int set = 0; set < 60; ++set) {
+    const double half_angle = draws.between(10.0, 70.0) * kRadPerDeg;
+    const double radius = draws.between(5.0, 100.0);
+    const double height = radius * std::exp2(draws.between(-3.0, 1.0));
+    const double arc = draws.between(1.0, 2.0 * std::numbers::pi);
+    auto points =
+        revolution({0, 0, 0}, UnitVec3::z(), 0.0, height, 4, 30, arc, draws.between(0.0, 6.0),
+                   [&](double along) { return radius + along * std::tan(half_angle); });
+    const double rough = 1e-3 * height * draws.between(0.1, 1.0);
+    for (Vec3& p : points) p += rough * Vec3(draws.gauss(), draws.gauss(), draws.gauss());
+    Cone planned;
+    planned.point = rough * Vec3(draws.gauss(), draws.gauss(), draws.gauss());
+    planned.axis = UnitVec3::z();
+    planned.half_angle = half_angle;
+    planned.radius = radius * std::cos(half_angle);
+    const FitOptions options{.expected = planned};
+    const auto near = fit_cone_nearby(points, options), searched = fit_cone(points, options);
+    ASSERT_TRUE(near && searched);
+    EXPECT_LT(angle_between(near->element.axis, searched->element.axis), 1e-9);
+    EXPECT_NEAR(near->element.half_angle, searched->element.half_angle, 1e-9);
+    EXPECT_NEAR(near->rms, searched->rms, 1e-10 * radius);
+  }
+}
+
 // Every element once, with deviations that are no noise of rounding.
 std::vector<Vec3> wavy(ElementKind kind, Draws& draws) {
   const UnitVec3 z = UnitVec3::z();

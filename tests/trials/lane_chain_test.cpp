@@ -1,5 +1,5 @@
 // The chains of eight machines at once against the chain of each.
-#include "trials/lane_chain.hpp"
+#include "trials/population/lane_chain.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "kinematics/errors/error_assignment.hpp"
 #include "kinematics/errors/error_draw.hpp"
 #include "kinematics/model/chain.hpp"
-#include "trials/lane_kernel.hpp"
+#include "trials/population/lane_kernel.hpp"
 
 namespace frustum::trials {
 namespace {

@@ -1,4 +1,4 @@
-#include "trials/draw_block.hpp"
+#include "trials/population/draw_block.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,8 @@
 #include "metrology/characteristic/datum_system.hpp"
 #include "metrology/characteristic/measured_values.hpp"
 #include "metrology/cmm.hpp"
-#include "trials/lane_kernel.hpp"
+#include "trials/population/edge_contact.hpp"
+#include "trials/population/lane_kernel.hpp"
 #include "trials/sensitivity.hpp"
 
 namespace frustum::trials {
@@ -83,6 +84,7 @@ void DrawBlock::evaluate(std::span<const metrology::CmmModel> cmms, bool travels
     const Eigen::VectorXd values = values_of(*measurement);
     lane.member->values.assign(values.begin(), values.end());
     if (!travels) continue;
+    lane.member->workpiece_from_datum = lane.workpiece_from_datum;
     for (const auto& feature : lane.travels) {
       lane.member->travels.insert(lane.member->travels.end(), feature.begin(), feature.end());
     }
@@ -194,7 +196,14 @@ void DrawBlock::probe_point(std::size_t feature, std::size_t index, std::size_t 
   }
   const FollowedPoint& point = common_.plan.points[common_.plan.first_point[feature] + index];
   const BallApproach approach = approach_of(lane, feature, index);
-  if (common_.options.sweeps_near_by && !point.surroundings.empty()) {
+  if (contact != nullptr &&
+      contact->doubt[lane_index] == static_cast<std::uint32_t>(Doubt::edges)) {
+    if (const auto on_edge = travel_on_edge(point, lane_index, approach)) {
+      travel = *on_edge;
+      return;
+    }
+  }
+  if (!point.surroundings.empty()) {
     if (const auto local = local_travel(point, lane_index, approach)) {
       ++lane.member->local;
       travel = *local;
@@ -243,6 +252,21 @@ PosesOfPiece DrawBlock::poses_of(const std::array<std::uint32_t, 3>& node, std::
     poses[k] = {lane_of(pose.tip, lane), lane_of(pose.axis, lane)};
   }
   return poses;
+}
+
+std::optional<double> DrawBlock::travel_on_edge(const FollowedPoint& point, std::size_t lane,
+                                                const BallApproach& approach) const {
+  const WindowTables& tables = common_.plan.tables;
+  const ProbeWindow& window = common_.plan.windows[point.window];
+  std::array<PosesOfPiece, kMostWindowPieces> pieces;
+  for (std::uint32_t k = 0; k < window.pieces; ++k) {
+    pieces[k] = poses_of(tables.pieces[window.first_piece + k].node, lane);
+  }
+  const Vec3 normal = approach.outward.vec();
+  return edge_travel(
+      {window, tables, std::span(pieces).first(window.pieces), point.origin,
+       poses_of(point.origin.node, lane), lanes_[lane].scale},
+      {approach.target + approach.ball_radius * normal, normal, approach.ball_radius});
 }
 
 std::optional<double> DrawBlock::local_travel(const FollowedPoint& point, std::size_t lane,

@@ -2,8 +2,8 @@
 // parabola, whatever the drawn errors.
 //
 // Model    : a block is cut where an error jumps and where its axes change their law, and then into
-//            as many equal parts as it takes; a jump is a piece of its own. Neighbouring pieces
-//            share a place
+//            halves and halves of halves as far as it takes; a jump is a piece of its own.
+//            Neighbouring pieces share a place
 // Units    : mm, rad
 // Shape    : the blocks asked for, in program order
 // Errors   : blocks of errors that bend too sharply within are marked
@@ -19,7 +19,7 @@
 
 #include "kinematics/controller/commanded_program.hpp"
 #include "kinematics/controller/setup.hpp"
-#include "trials/lane_chain.hpp"
+#include "trials/population/lane_chain.hpp"
 
 namespace frustum::trials {
 

@@ -19,11 +19,11 @@
 #include <string>
 #include <vector>
 
-#include "trials/lane_chain.hpp"
-#include "trials/lane_contact.hpp"
-#include "trials/local_contact.hpp"
-#include "trials/motion_pieces.hpp"
-#include "trials/population_laws.hpp"
+#include "trials/population/lane_chain.hpp"
+#include "trials/population/lane_contact.hpp"
+#include "trials/population/local_contact.hpp"
+#include "trials/population/motion_pieces.hpp"
+#include "trials/population/population_laws.hpp"
 #include "trials/trial.hpp"
 
 namespace frustum::trials {
@@ -57,9 +57,14 @@ struct FollowPlan {
   double largest_motion = 0.0;  // mm, of any point of the cutters for errors within their laws
 };
 
+// all: no more than the reasons are found where the middle machine's trial tells already that a
+// point cannot be followed.
+enum class FollowScope { what_can_be, all };
+
 [[nodiscard]] FollowPlan follow_plan(const kinematics::Machine& machine,
                                      const programs::TestPiece& piece,
                                      const CommandedPiece& commanded, const PopulationLaws& laws,
-                                     const Trial& middle);
+                                     const Trial& middle,
+                                     FollowScope scope = FollowScope::what_can_be);
 
 }  // namespace frustum::trials

@@ -1,4 +1,4 @@
-#include "trials/lane_chain.hpp"
+#include "trials/population/lane_chain.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -6,7 +6,7 @@
 
 #include "kinematics/model/joint_motion.hpp"
 #include "kinematics/model/small_rotation.hpp"
-#include "trials/lane_kernel.hpp"
+#include "trials/population/lane_kernel.hpp"
 
 namespace frustum::trials {
 namespace {

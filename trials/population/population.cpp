@@ -1,13 +1,15 @@
-#include "trials/population.hpp"
+#include "trials/population/population.hpp"
 
+#include <fmt/format.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "metrology/plan/strategy.hpp"
-#include "trials/draw_block.hpp"
+#include "trials/population/draw_block.hpp"
 #include "trials/sensitivity.hpp"
 
 namespace frustum::trials {
@@ -18,6 +20,36 @@ using programs::TestPiece;
 struct Population::State {
   PopulationCommon common;
 };
+
+namespace {
+
+void count(std::vector<Population::Reason>& reasons, const std::string& why) {
+  const auto known = std::ranges::find(reasons, why, &Population::Reason::why);
+  if (known != reasons.end()) {
+    ++known->points;
+  } else {
+    reasons.push_back({why, 1});
+  }
+}
+
+// Points that no draw can follow or sweep near by, by their reasons.
+std::optional<Diagnostic> asked_whole(const FollowPlan& plan) {
+  std::vector<Population::Reason> reasons;
+  for (const FollowedPoint& point : plan.points) {
+    if (!point.is_followed && point.surroundings.empty()) count(reasons, point.why_not);
+  }
+  if (reasons.empty()) return std::nullopt;
+  std::string text;
+  for (const Population::Reason& reason : reasons) {
+    text += fmt::format("{}{} ({} {})", text.empty() ? "" : "; ", reason.why, reason.points,
+                        reason.points == 1 ? "point" : "points");
+  }
+  return error("population-whole"_id,
+               "points of the plan cannot be followed from machine to machine: " + text,
+               "a trial of the whole program for each machine");
+}
+
+}  // namespace
 
 Result<Population> Population::make(const Machine& machine, const TestPiece& piece,
                                     const CommandedPiece& commanded, const PopulationLaws& laws,
@@ -36,7 +68,11 @@ Result<Population> Population::make(const Machine& machine, const TestPiece& pie
   for (const ErrorColumn& column : laws.columns()) {
     common.limits.push_back(column.most - std::abs(column.middle));
   }
-  common.plan = follow_plan(machine, piece, commanded, common.laws, common.middle);
+  common.plan = follow_plan(machine, piece, commanded, common.laws, common.middle,
+                            options.refuse_whole ? FollowScope::all : FollowScope::what_can_be);
+  if (options.refuse_whole) {
+    if (auto refusal = asked_whole(common.plan)) return *std::move(refusal);
+  }
   if (!options.follow) {
     for (FollowedPoint& point : common.plan.points) {
       point = {};
@@ -99,13 +135,7 @@ Result<std::vector<double>> Population::evaluate_moved(std::span<const double> m
 std::vector<Population::Reason> Population::reasons() const {
   std::vector<Reason> reasons;
   for (const FollowedPoint& point : state_->common.plan.points) {
-    if (point.is_followed) continue;
-    const auto known = std::ranges::find(reasons, point.why_not, &Reason::why);
-    if (known != reasons.end()) {
-      ++known->points;
-    } else {
-      reasons.push_back({point.why_not, 1});
-    }
+    if (!point.is_followed) count(reasons, point.why_not);
   }
   return reasons;
 }

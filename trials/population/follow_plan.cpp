@@ -1,4 +1,4 @@
-#include "trials/follow_plan.hpp"
+#include "trials/population/follow_plan.hpp"
 
 #include <fmt/format.h>
 
@@ -12,9 +12,9 @@
 
 #include "cutter/sweep/segment_motion.hpp"
 #include "metrology/plan/strategy.hpp"
-#include "trials/column_motion.hpp"
-#include "trials/middle_contact.hpp"
-#include "trials/window_bounds.hpp"
+#include "trials/population/column_motion.hpp"
+#include "trials/population/middle_contact.hpp"
+#include "trials/population/window_bounds.hpp"
 
 namespace frustum::trials {
 namespace {
@@ -34,7 +34,7 @@ constexpr std::uint32_t kMostWindow = 8;
 // A window is wide enough when machines at this share of the proof's limits are proven; they drift
 // by so many standard deviations.
 constexpr double kShare = 0.7;
-constexpr double kDeviations = 3.5;
+constexpr double kDriftDeviations = 3.5;
 
 // A contact of the middle machine as its trial found it.
 struct Found {
@@ -62,10 +62,15 @@ class Planner {
     plan_.largest_motion = bounds_.largest_motion();
   }
 
-  FollowPlan plan() && {
+  FollowPlan plan(FollowScope scope) && {
     find_points();
-    find_surroundings();
     if (!plan_.chain->carries_all()) refuse_all("the errors have a volumetric grid");
+    const auto is_refused = [](const FollowedPoint& point) { return !point.why_not.empty(); };
+    if (scope == FollowScope::all && std::ranges::any_of(plan_.points, is_refused)) {
+      std::erase_if(plan_.points, [&](const FollowedPoint& point) { return !is_refused(point); });
+      return std::move(plan_);
+    }
+    find_surroundings();
     cut_pieces();
     for (std::size_t i = 0; i < plan_.points.size(); ++i) {
       if (found_[i] && plan_.points[i].why_not.empty()) follow(plan_.points[i], *found_[i], i);
@@ -304,18 +309,42 @@ class Planner {
     point.surroundings = surroundings;
     point.tool = contact.tool;
     point.origin = {own_piece.node, own->solution.tau, pose, touched};
-    if (surroundings.size() > 1) {
-      point.why_not = "the path comes by more than once";
-      return;
-    }
     ProbeWindow window;
     window.others = point.others;
-    widen(window, pieces, own->piece, at, own->face, contact.tool);
-    if (window.pieces == 0) {
-      point.why_not = "the cutter hardly leaves the surface again";
+    window.first_stretch = static_cast<std::uint32_t>(plan_.tables.stretches.size());
+    window.first_piece = static_cast<std::uint32_t>(plan_.tables.pieces.size());
+    std::vector<WindowStretch> stretches;
+    for (const PieceRange& range : surroundings) {
+      const bool is_own = stretches.empty();
+      const std::size_t deepest =
+          is_own ? own->piece : deepest_of(of(range), own->face, line, travel, touched);
+      auto stretch = widened(of(range), deepest, at, own->face, contact.tool);
+      if (!stretch) {
+        point.why_not = "the cutter hardly leaves the surface again";
+        return;
+      }
+      if (is_own) {
+        window.own_piece = static_cast<std::uint32_t>(deepest) - stretch->first_piece;
+      }
+      stretch->first_piece += range.first;
+      window.pieces += stretch->pieces;
+      stretches.push_back(*stretch);
+    }
+    if (window.pieces > kMostWindowPieces) {
+      point.why_not = "the path comes by too often";
       return;
     }
-    fill(window, pieces, line, travel, own->face, contact);
+    window.stretches = static_cast<std::uint32_t>(stretches.size());
+    for (WindowStretch& stretch : stretches) {
+      const std::span<const MotionPiece> all(plan_.motion.pieces);
+      const auto its = all.subspan(stretch.first_piece, stretch.pieces);
+      stretch.first_piece = static_cast<std::uint32_t>(plan_.tables.pieces.size());
+      fill(its, line, travel, own->face);
+      plan_.tables.stretches.push_back(stretch);
+    }
+    window.ball = contact.ball;
+    window.face = static_cast<std::uint32_t>(plan_.tables.faces.size());
+    plan_.tables.faces.push_back(own->face);
     window.tip = {pose.tip.x(), pose.tip.y(), pose.tip.z()};
     window.axis = {pose.axis.x(), pose.axis.y(), pose.axis.z()};
     window.touched = {touched.x(), touched.y(), touched.z()};
@@ -348,12 +377,36 @@ class Planner {
     return state;
   }
 
+  // The piece that lets the ball go deepest; where none meets its line, that with the cutter
+  // nearest to the contact.
+  [[nodiscard]] std::size_t deepest_of(std::span<const MotionPiece> pieces, const LaneFace& face,
+                                       const CentreLine& line, double travel,
+                                       const Vec3& touched) const {
+    std::size_t best = 0, nearest = 0;
+    double least = std::numeric_limits<double>::infinity(), near = least;
+    for (std::size_t k = 0; k < pieces.size(); ++k) {
+      const PoseParabola piece = parabola(pieces[k]);
+      const double distance = std::abs(off_face(face, piece.at(0.5), touched).distance);
+      if (distance < near) {
+        near = distance;
+        nearest = k;
+      }
+      if (!(distance < kSurroundings)) continue;
+      const auto solution = solve_piece(face, piece, line, travel);
+      if (solution && solution->travel < least) {
+        least = solution->travel;
+        best = k;
+      }
+    }
+    return std::isfinite(least) ? best : nearest;
+  }
+
   // Takes pieces on both sides until what comes after them is proven not to matter for nearly all
-  // machines.
-  void widen(ProbeWindow& window, std::span<const MotionPiece> pieces, std::size_t own,
-             const ContactPlace& at, const LaneFace& face, int tool) {
-    const double drift = kDeviations * bounds_.drift_deviation(at);
-    std::size_t first = own, last = own;
+  // machines. `first_piece` is counted from the first one given.
+  std::optional<WindowStretch> widened(std::span<const MotionPiece> pieces, std::size_t deepest,
+                                       const ContactPlace& at, const LaneFace& face, int tool) {
+    const double drift = kDriftDeviations * bounds_.drift_deviation(at);
+    std::size_t first = deepest, last = deepest;
     const auto is_enough = [&](const SideBound& side) {
       return side.at_end > 0.0 && side.closeness.per_scale + side.closeness.per_drift * drift +
                                           side.closeness.per_nearer *
@@ -368,12 +421,13 @@ class Planner {
       }
       return bounds_.side(at, face, tool, place(end), beyond);
     };
+    WindowStretch stretch;
     const auto widen_side = [&](bool up) {
       for (;;) {
         const std::uint32_t end = up ? pieces[last].node[2] : pieces[first].node[0];
         const SideBound side = side_at(end, up);
-        (up ? window.after : window.before) = side.closeness;
-        (up ? window.at_last : window.at_first) = side.at_end;
+        (up ? stretch.after : stretch.before) = side.closeness;
+        (up ? stretch.at_last : stretch.at_first) = side.at_end;
         const bool is_end = up ? last + 1 == pieces.size() : first == 0;
         if (is_enough(side)) return true;
         if (is_end || last - first + 1 >= kMostWindow) return false;
@@ -384,31 +438,25 @@ class Planner {
         }
       }
     };
-    window.is_open_before = window.is_open_after = true;
-    if (!widen_side(false) || !widen_side(true)) return;
-    window.own_piece = static_cast<std::uint32_t>(own - first);
-    window.first_piece = static_cast<std::uint32_t>(first);
-    window.pieces = static_cast<std::uint32_t>(last - first + 1);
+    if (!widen_side(false) || !widen_side(true)) return std::nullopt;
+    stretch.first_piece = static_cast<std::uint32_t>(first);
+    stretch.pieces = static_cast<std::uint32_t>(last - first + 1);
+    return stretch;
   }
 
-  void fill(ProbeWindow& window, std::span<const MotionPiece> pieces, const CentreLine& line,
-            double travel, const LaneFace& face, const Found& contact) {
+  void fill(std::span<const MotionPiece> pieces, const CentreLine& line, double travel,
+            const LaneFace& face) {
     // A jump bends nothing; steps along it end at its ends.
     constexpr double kLeastBend = 1e-9;
-    const std::size_t first = window.first_piece;
-    window.first_piece = static_cast<std::uint32_t>(plan_.tables.pieces.size());
-    for (std::size_t k = first; k < first + window.pieces; ++k) {
-      const auto solution = solve_piece(face, parabola(pieces[k]), line, travel);
-      LanePiece piece{pieces[k].node, 0.5, kLeastBend};
+    for (const MotionPiece& one : pieces) {
+      const auto solution = solve_piece(face, parabola(one), line, travel);
+      LanePiece piece{one.node, 0.5, kLeastBend};
       if (solution) {
         piece.tau = solution->tau;
         piece.bend = std::max(solution->bend, kLeastBend);
       }
       plan_.tables.pieces.push_back(piece);
     }
-    window.ball = contact.ball;
-    window.face = static_cast<std::uint32_t>(plan_.tables.faces.size());
-    plan_.tables.faces.push_back(face);
   }
 
   const kinematics::Machine& machine_;
@@ -433,8 +481,8 @@ class Planner {
 
 FollowPlan follow_plan(const kinematics::Machine& machine, const programs::TestPiece& piece,
                        const CommandedPiece& commanded, const PopulationLaws& laws,
-                       const Trial& middle) {
-  return Planner(machine, piece, commanded, laws, middle).plan();
+                       const Trial& middle, FollowScope scope) {
+  return Planner(machine, piece, commanded, laws, middle).plan(scope);
 }
 
 }  // namespace frustum::trials

@@ -60,6 +60,10 @@ class PopulationLaws {
                                                  std::span<const kinematics::ErrorEntry> entries,
                                                  const kinematics::AxisSpans& spans);
 
+  // Columns that were made elsewhere; weights() of entries is not for them.
+  [[nodiscard]] static PopulationLaws of(kinematics::GeometricErrors fixed,
+                                         std::vector<ErrorColumn> columns);
+
   [[nodiscard]] std::span<const ErrorColumn> columns() const { return columns_; }
   // Of the errors that are not drawn.
   [[nodiscard]] const kinematics::GeometricErrors& fixed() const { return fixed_; }

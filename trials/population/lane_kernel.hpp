@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <span>
 
-#include "trials/lane_chain.hpp"
-#include "trials/lane_contact.hpp"
+#include "trials/population/lane_chain.hpp"
+#include "trials/population/lane_contact.hpp"
 
 namespace frustum::trials {
 

@@ -1,4 +1,4 @@
-#include "trials/population_laws.hpp"
+#include "trials/population/population_laws.hpp"
 
 #include <fmt/format.h>
 
@@ -246,6 +246,13 @@ Result<PopulationLaws> PopulationLaws::of(const Machine& machine,
   auto unspanned = errors_for(machine, std::span<const ErrorEntry>{}, piece, commanded);
   assert(!unspanned);
   return std::move(unspanned).error();
+}
+
+PopulationLaws PopulationLaws::of(GeometricErrors fixed, std::vector<ErrorColumn> columns) {
+  PopulationLaws laws;
+  laws.fixed_ = std::move(fixed);
+  laws.columns_ = std::move(columns);
+  return laws;
 }
 
 Weights PopulationLaws::weights(std::span<const ErrorEntry> drawn) const {

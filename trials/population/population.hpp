@@ -13,9 +13,9 @@
 // Units    : mm, rad
 // Shape    : one call for any number of draws; parallel over blocks of draws (oneTBB's arena of the
 //            caller), the same bits for any number of threads, blocks or neighbours in a block
-// Errors   : make(): those of the middle machine's trial. evaluate(): a draw that fails has its
-//            diagnostics; the others go on. What cannot be followed is no error: it is asked whole,
-//            and reasons() says why
+// Errors   : make(): those of the middle machine's trial; "population-whole". evaluate(): a draw
+//            that fails has its diagnostics; the others go on. What cannot be followed is no error:
+//            it is asked whole, and reasons() says why
 // Accuracy : follows the commanded motion itself, so that path_bound enters only where points are
 //            local or whole: within 2 nm of run_trial() with a path_bound of 1 nm, which itself is
 //            within its path_bound of the motion (tests/trials/population_test.cpp)
@@ -30,12 +30,13 @@
 #include <string>
 #include <vector>
 
+#include "core/pose.hpp"
 #include "core/result.hpp"
 #include "kinematics/model/machine.hpp"
 #include "metrology/cmm.hpp"
 #include "metrology/measurement.hpp"
 #include "programs/test_piece.hpp"
-#include "trials/population_laws.hpp"
+#include "trials/population/population_laws.hpp"
 #include "trials/surface_gain.hpp"
 #include "trials/trial.hpp"
 
@@ -44,9 +45,8 @@ namespace frustum::trials {
 struct PopulationOptions {
   double path_bound = 1e-6;  // mm, of what is swept locally or whole
   bool follow = true;        // false: every draw is a whole trial; for comparison
-  // Points that cannot be followed are asked of the cutter swept near by, not of the whole program:
-  // a hundred times faster, but where facets of the program meet up to 0.3 um off.
-  bool sweeps_near_by = false;
+  // make() refuses a job with a point that every draw would have to ask of the whole program.
+  bool refuse_whole = false;
 };
 
 // One machine of the population and the part that it makes.
@@ -58,9 +58,10 @@ struct PopulationMember {
   // where the ball touched, the ball's radius taken off against the approach, mm along the planned
   // normal. The CMM approaches in the datum system of this draw. Only if asked for.
   std::vector<double> travels{};
-  std::size_t local = 0;  // points that were swept near by
-  std::size_t whole = 0;  // points that were asked of the whole program
-  Diagnostics failure{};  // why there are no values
+  Pose workpiece_from_datum{};  // in which these points were approached
+  std::size_t local = 0;        // points that were swept near by
+  std::size_t whole = 0;        // points that were asked of the whole program
+  Diagnostics failure{};        // why there are no values
 };
 
 struct EvaluateOptions {

@@ -19,8 +19,8 @@
 
 #include "kinematics/controller/setup.hpp"
 #include "stock/solid/workpiece.hpp"
-#include "trials/column_motion.hpp"
-#include "trials/lane_contact.hpp"
+#include "trials/population/column_motion.hpp"
+#include "trials/population/lane_contact.hpp"
 
 namespace frustum::trials {
 

@@ -1,11 +1,11 @@
-#include "trials/window_bounds.hpp"
+#include "trials/population/window_bounds.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "cutter/sweep/segment_motion.hpp"
-#include "trials/middle_contact.hpp"
+#include "trials/population/middle_contact.hpp"
 
 namespace frustum::trials {
 namespace {

@@ -1,4 +1,4 @@
-#include "trials/local_contact.hpp"
+#include "trials/population/local_contact.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "cutter/search/swept_cutter.hpp"
-#include "trials/middle_contact.hpp"
 
 namespace frustum::trials {
 namespace {
@@ -22,15 +21,6 @@ int chords_of(const PosesOfPiece& p, double reach, double bound) {
   const double sagitta = 0.5 * (bend.norm() + reach * turn.norm());
   constexpr double kMost = 64.0;
   return static_cast<int>(std::clamp(std::ceil(std::sqrt(sagitta / (0.5 * bound))), 1.0, kMost));
-}
-
-// Where the middle machine's contact would be now, had its cutter carried it along.
-Vec3 carried(const LocalSurroundings& near) {
-  const ToolPose now = PoseParabola{near.own}.at(near.origin.tau);
-  const ToolPose& before = near.origin.pose;
-  const Vec3 m = near.origin.touched - before.tip, turn = now.axis - before.axis;
-  return near.origin.touched + now.tip - before.tip + m.dot(before.axis) * turn -
-         m.dot(turn) * before.axis;
 }
 
 // Pieces whose ends are farther than this from there (mm) cannot make it for any
@@ -50,7 +40,7 @@ LocalPath path_of(const LocalSurroundings& near, int tool, const cutter::Body& b
                   double path_bound) {
   LocalPath local;
   local.path.bound = path_bound;
-  const Vec3 place = carried(near);
+  const Vec3 place = carried(near.origin, near.own);
   const auto is_aside = [&](const ToolPose& pose) { return body.distance(pose, place) > kAside; };
   kinematics::PathBlock block;
   block.tool = tool;
@@ -88,7 +78,7 @@ class LocalProbe {
     const auto contact = swept_.end_of_void(ray, 0.0, length_mm);
     if (!contact || contact->s >= length_mm) return std::nullopt;
     stays_inside_ = stays_inside_ && is_inner_[contact->segment];
-    return metrology::Touch{ray.at(contact->s), contact->normal, {}};
+    return metrology::Touch{ray.at(contact->s), -contact->normal, {}};  // out of the material
   }
   [[nodiscard]] bool stays_inside() const { return stays_inside_; }
 
@@ -113,12 +103,9 @@ std::optional<metrology::BallContact> local_contact(const LocalSurroundings& nea
   if (contact.state != metrology::ContactState::contact || !probe.stays_inside()) {
     return std::nullopt;
   }
-  const double drift = (contact.touch.point - carried(near)).norm();
+  const double drift = (contact.touch.point - carried(near.origin, near.own)).norm();
   const double moved = (contact.touch.point - near.origin.touched).norm();
-  const bool keeps_away = near.others.per_scale * near.scale + near.others.per_drift * drift +
-                              near.others.per_nearer * moved <
-                          1.0;
-  return keeps_away ? std::optional(contact) : std::nullopt;
+  return keeps_away(near.others, near.scale, drift, moved) ? std::optional(contact) : std::nullopt;
 }
 
 }  // namespace frustum::trials

@@ -1,4 +1,4 @@
-#include "trials/lane_kernel.hpp"
+#include "trials/population/lane_kernel.hpp"
 
 #include <cstddef>
 
@@ -7,11 +7,11 @@
 namespace frustum::trials {
 namespace any_processor {
 inline constexpr std::size_t kWidth = 2;
-#include "trials/lane_operations.inc"
+#include "trials/population/lane_operations.inc"
 // In this order.
-#include "trials/lane_pose_kernel.inc"
+#include "trials/population/lane_pose_kernel.inc"
 // The contact comes last.
-#include "trials/lane_contact_kernel.inc"
+#include "trials/population/lane_contact_kernel.inc"
 }  // namespace any_processor
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
@@ -20,22 +20,22 @@ inline constexpr std::size_t kWidth = 2;
 #pragma GCC target("avx2")
 namespace with_avx2 {
 inline constexpr std::size_t kWidth = 4;
-#include "trials/lane_operations.inc"
+#include "trials/population/lane_operations.inc"
 // In this order.
-#include "trials/lane_pose_kernel.inc"
+#include "trials/population/lane_pose_kernel.inc"
 // The contact comes last.
-#include "trials/lane_contact_kernel.inc"
+#include "trials/population/lane_contact_kernel.inc"
 }  // namespace with_avx2
 #pragma GCC pop_options
 #pragma GCC push_options
 #pragma GCC target("avx512f,avx512dq,prefer-vector-width=512")
 namespace with_avx512 {
 inline constexpr std::size_t kWidth = 8;
-#include "trials/lane_operations.inc"
+#include "trials/population/lane_operations.inc"
 // In this order.
-#include "trials/lane_pose_kernel.inc"
+#include "trials/population/lane_pose_kernel.inc"
 // The contact comes last.
-#include "trials/lane_contact_kernel.inc"
+#include "trials/population/lane_contact_kernel.inc"
 }  // namespace with_avx512
 #pragma GCC pop_options
 #endif

@@ -9,27 +9,16 @@
 // Source   : ours
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 
 #include "cutter/body/cutter.hpp"
-#include "kinematics/model/tool_pose.hpp"
 #include "metrology/probing/ball_contact.hpp"
-#include "trials/lane_contact.hpp"
+#include "trials/population/lane_contact.hpp"
+#include "trials/population/middle_contact.hpp"
 
 namespace frustum::trials {
-
-// Where the middle machine's contact is: the piece of motion, and how it was.
-struct ContactOrigin {
-  std::array<std::uint32_t, 3> node{};
-  double tau = 0.0;
-  kinematics::ToolPose pose{};
-  Vec3 touched = Vec3::Zero();
-};
-
-using PosesOfPiece = std::array<kinematics::ToolPose, 3>;
 
 struct LocalSurroundings {
   std::span<const PosesOfPiece> pieces{};    // of all ranges, one after the other

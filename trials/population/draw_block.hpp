@@ -14,8 +14,8 @@
 #include "metrology/characteristic/fitted_feature.hpp"
 #include "metrology/plan/strategy.hpp"
 #include "metrology/probing/cmm_errors.hpp"
-#include "trials/follow_plan.hpp"
-#include "trials/population.hpp"
+#include "trials/population/follow_plan.hpp"
+#include "trials/population/population.hpp"
 
 namespace frustum::trials {
 
@@ -63,6 +63,8 @@ class DrawBlock {
   void probe(std::size_t feature);
   void probe_point(std::size_t feature, std::size_t index, std::size_t lane,
                    const LaneContact* contact);
+  [[nodiscard]] std::optional<double> travel_on_edge(const FollowedPoint& point, std::size_t lane,
+                                                     const metrology::BallApproach& approach) const;
   [[nodiscard]] std::optional<double> local_travel(const FollowedPoint& point, std::size_t lane,
                                                    const metrology::BallApproach& approach);
   void fit(std::size_t feature, Lane& lane);

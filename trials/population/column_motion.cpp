@@ -1,4 +1,4 @@
-#include "trials/column_motion.hpp"
+#include "trials/population/column_motion.hpp"
 
 #include <cmath>
 

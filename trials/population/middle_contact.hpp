@@ -8,11 +8,12 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 
 #include "cutter/body/body.hpp"
 #include "kinematics/model/tool_pose.hpp"
-#include "trials/lane_contact.hpp"
+#include "trials/population/lane_contact.hpp"
 
 namespace frustum::trials {
 
@@ -38,6 +39,10 @@ struct PoseParabola {
   std::array<kinematics::ToolPose, 3> poses{};
   [[nodiscard]] kinematics::ToolPose at(double tau) const;
 };
+// The change of that distance with tau for a point that stays; `off`: at this tau.
+[[nodiscard]] double rate_off_face(const LaneFace& face, const PoseParabola& piece, double tau,
+                                   const Vec3& point, const PointOffFace& off);
+
 struct PieceSolution {
   double travel = 0.0, tau = 0.0, bend = 0.0;
   PointOffFace centre{};  // of the ball
@@ -46,5 +51,21 @@ struct PieceSolution {
 [[nodiscard]] std::optional<PieceSolution> solve_piece(const LaneFace& face,
                                                        const PoseParabola& piece,
                                                        const CentreLine& line, double travel);
+
+using PosesOfPiece = std::array<kinematics::ToolPose, 3>;
+
+// Where the middle machine's contact is: the piece of motion, and how it was.
+struct ContactOrigin {
+  std::array<std::uint32_t, 3> node{};
+  double tau = 0.0;
+  kinematics::ToolPose pose{};
+  Vec3 touched = Vec3::Zero();
+};
+// Where another machine's cutter carried that contact: `own` are its poses of the piece.
+[[nodiscard]] Vec3 carried(const ContactOrigin& origin, const PosesOfPiece& own);
+
+// Whether what is that close stays out of the way, of a machine at so much of its laws' limits,
+// whose contact is `drift` from where it was carried and has something come nearer (mm).
+[[nodiscard]] bool keeps_away(const Closeness& from, double scale, double drift, double nearer);
 
 }  // namespace frustum::trials

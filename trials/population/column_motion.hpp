@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "kinematics/errors/error_gain.hpp"
-#include "trials/population_laws.hpp"
+#include "trials/population/population_laws.hpp"
 
 namespace frustum::trials {
 

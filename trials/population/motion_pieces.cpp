@@ -1,4 +1,4 @@
-#include "trials/motion_pieces.hpp"
+#include "trials/population/motion_pieces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 
 #include "kinematics/model/chain.hpp"
 #include "kinematics/path/approach_direction.hpp"
+#include "trials/population/middle_contact.hpp"
 
 namespace frustum::trials {
 namespace {
@@ -24,8 +25,10 @@ using kinematics::ToolPose;
 
 // What a parabola may be off (mm): a hundredth of the nanometre that a contact is good for.
 constexpr double kParabola = 2e-8;
-// A block of more pieces than these bends too sharply to be followed.
-constexpr int kMostPieces = 32;
+// A block of more pieces than these, or of smaller ones than its part after so many halvings, bends
+// too sharply to be followed.
+constexpr std::size_t kMostPieces = 64;
+constexpr int kMostHalvings = 10;
 
 GeometricErrors all_of(const PopulationLaws& laws) {
   return laws.errors(Weights(laws.columns().size(), 1.0));
@@ -80,7 +83,9 @@ class PieceCutter {
         const AxisPositions q = motion.at(u);
         return w == 0.0 ? out_.states[last_] : AxisState(q, approach.at(u, q));
       };
-      cut.is_smooth = cut_evenly(state) && cut.is_smooth;
+      const std::size_t before = out_.pieces.size();
+      const bool is_cut = cut_between(state, 0.0, 1.0, 0);
+      cut.is_smooth = cut.is_smooth && is_cut && out_.pieces.size() - before <= kMostPieces;
       if (u1 < 1.0 && turns_at(u1)) jump_to(leaving(u1));
       u0 = u1;
     }
@@ -121,35 +126,34 @@ class PieceCutter {
     append(middle, add(after));
   }
 
+  // From the place reached to the one at `end`; `state` over 0 to 1. Errors bend where their spans
+  // end, so that parts are halved where it takes them.
   template <typename State>
-  bool cut_evenly(const State& state) {
-    int parts = 1;
-    while (parts <= kMostPieces && !is_parabolic(state, parts)) parts *= 2;
-    const bool is_smooth = parts <= kMostPieces;
-    if (!is_smooth) parts = 1;
-    for (int i = 0; i < parts; ++i) {
-      const std::uint32_t middle = add(state((i + 0.5) / parts));
-      append(middle, add(state((i + 1.0) / parts)));
+  bool cut_between(const State& state, double begin, double end, int halvings) {
+    const double half = 0.5 * (begin + end);
+    const bool is_parabola = is_parabolic(state, begin, end);
+    if (is_parabola || halvings == kMostHalvings) {
+      const std::uint32_t middle = add(state(half));
+      append(middle, add(state(end)));
+      return is_parabola;
     }
-    return is_smooth;
+    const bool before = cut_between(state, begin, half, halvings + 1);
+    return cut_between(state, half, end, halvings + 1) && before;
   }
 
   template <typename State>
-  bool is_parabolic(const State& state, int parts) const {
+  bool is_parabolic(const State& state, double begin, double end) const {
     for (const ForwardChain* chain : {&chains_->first, &chains_->second}) {
       const auto pose = [&](double w) {
         return kinematics::tool_pose(workpiece_from_table_ * chain->table_from_tool(state(w)));
       };
-      for (int i = 0; i < parts; ++i) {
-        const double w = static_cast<double>(i) / parts, h = 1.0 / parts;
-        const ToolPose a = pose(w), b = pose(w + 0.5 * h), c = pose(i + 1 == parts ? 1.0 : w + h);
-        for (const double t : {0.25, 0.75}) {
-          const double at_a = (1.0 - t) * (1.0 - 2.0 * t), at_b = 4.0 * t * (1.0 - t),
-                       at_c = t * (2.0 * t - 1.0);
-          const ToolPose exact = pose(w + t * h);
-          const Vec3 tip = at_a * a.tip + at_b * b.tip + at_c * c.tip - exact.tip;
-          const Vec3 axis = at_a * a.axis + at_b * b.axis + at_c * c.axis - exact.axis;
-          if (!(tip.norm() + reach_ * axis.norm() < kParabola)) return false;
+      const double h = end - begin;
+      const PoseParabola parabola{{pose(begin), pose(begin + 0.5 * h), pose(end)}};
+      for (const double t : {0.25, 0.75}) {
+        const ToolPose near = parabola.at(t), exact = pose(begin + t * h);
+        if (!((near.tip - exact.tip).norm() + reach_ * (near.axis - exact.axis).norm() <
+              kParabola)) {
+          return false;
         }
       }
     }

@@ -19,8 +19,8 @@
 #include "core/pose.hpp"
 #include "kinematics/model/geometric_errors.hpp"
 #include "kinematics/model/machine.hpp"
-#include "trials/lanes.hpp"
-#include "trials/population_laws.hpp"
+#include "trials/population/lanes.hpp"
+#include "trials/population/population_laws.hpp"
 
 namespace frustum::trials {
 

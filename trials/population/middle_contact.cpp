@@ -1,4 +1,4 @@
-#include "trials/middle_contact.hpp"
+#include "trials/population/middle_contact.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -62,6 +62,21 @@ ToolPose PoseParabola::at(double tau) const {
           (a * poses[0].axis + b * poses[1].axis + c * poses[2].axis).normalized()};
 }
 
+double rate_off_face(const LaneFace& face, const PoseParabola& piece, double tau, const Vec3& point,
+                     const PointOffFace& off) {
+  const auto rate = [tau](const Vec3& a, const Vec3& b, const Vec3& c) -> Vec3 {
+    return (4.0 * tau - 3.0) * a + (4.0 - 8.0 * tau) * b + (4.0 * tau - 1.0) * c;
+  };
+  const auto& [a, b, c] = piece.poses;
+  const ToolPose pose = piece.at(tau);
+  const Vec3 m = point - pose.tip;
+  const double axial = off.out.dot(pose.axis);
+  const double lateral =
+      face.is_round ? (off.rho - face.major) / (off.distance + face.radius) : face.cosine;
+  return m.dot(rate(a.axis, b.axis, c.axis)) * (axial - lateral * off.height / off.rho) -
+         off.out.dot(rate(a.tip, b.tip, c.tip));
+}
+
 std::optional<PieceSolution> solve_piece(const LaneFace& face, const PoseParabola& piece,
                                          const CentreLine& line, double travel) {
   const auto off = [&](double tau, double v) {
@@ -105,6 +120,19 @@ std::optional<PieceSolution> solve_piece(const LaneFace& face, const PoseParabol
                 off(found.tau - kStep, found.travel).distance) /
                (kStep * kStep);
   return found;
+}
+
+Vec3 carried(const ContactOrigin& origin, const PosesOfPiece& own) {
+  const ToolPose now = PoseParabola{own}.at(origin.tau);
+  const ToolPose& before = origin.pose;
+  const Vec3 m = origin.touched - before.tip, turn = now.axis - before.axis;
+  return origin.touched + now.tip - before.tip + m.dot(before.axis) * turn -
+         m.dot(turn) * before.axis;
+}
+
+bool keeps_away(const Closeness& from, double scale, double drift, double nearer) {
+  return from.per_scale * scale + from.per_drift * drift + from.per_nearer * std::max(nearer, 0.0) <
+         1.0;
 }
 
 }  // namespace frustum::trials

@@ -8,7 +8,7 @@
 //            the ball rests on the edge that both leave
 //            A contact is proven when nothing else covers it: the distance of other parts of the
 //            path from the middle machine's contact is more than they can have come nearer. Of the
-//            next parts on either side this is told from how the ends of the window have moved
+//            next parts on either side this is told from how the ends of its stretches have moved
 // Units    : mm; tau 0 to 1 over a piece; frame: workpiece
 // Errors   : contacts that are not proven say why
 // Accuracy : 1e-10 mm for the pieces given
@@ -19,7 +19,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "trials/lanes.hpp"
+#include "trials/population/lanes.hpp"
 
 namespace frustum::trials {
 
@@ -48,23 +48,34 @@ struct Closeness {
   double per_nearer = 0.0;
 };
 
+// Pieces in a row.
+struct WindowStretch {
+  std::uint32_t first_piece = 0, pieces = 0;  // of WindowTables
+  // The distance of the middle machine's contact from the cutter at both ends (mm), and what of the
+  // path comes before and after.
+  double at_first = 0.0, at_last = 0.0;
+  Closeness before{}, after{};
+};
+
 struct ProbeWindow {
   std::array<double, 3> point{}, normal{};  // as planned, in the frame of approach
   std::uint32_t face = 0;                   // of WindowTables
+  // One for each time that the path comes by; their pieces follow each other in the table.
+  std::uint32_t first_stretch = 0, stretches = 0;
   std::uint32_t first_piece = 0, pieces = 0;
   std::uint32_t own_piece = 0;  // of the window's, where the middle machine's contact is
   double ball = 0.0;            // mm, radius
   double travel = 0.0;          // of the middle machine
-  // The middle machine's cutter at its contact: tip, axis, the contact point, and the distance of
-  // that point from the cutter at both ends of the window.
+  // The middle machine's cutter at its contact: tip, axis, and the contact point.
   std::array<double, 3> tip{}, axis{}, touched{};
-  double at_first = 0.0, at_last = 0.0;
-  Closeness before{}, after{}, others{};
-  bool is_open_before = false, is_open_after = false;  // the path goes on there
+  Closeness others{};
 };
+// No window has more.
+inline constexpr std::uint32_t kMostWindowPieces = 24;
 
 struct WindowTables {
   std::vector<LaneFace> faces{};
+  std::vector<WindowStretch> stretches{};
   std::vector<LanePiece> pieces{};
 };
 
@@ -74,7 +85,7 @@ enum class Doubt : std::uint32_t {
   unsettled = 1,  // the solution did not settle
   off_face = 2,   // on another face of the cutter
   edges = 4,      // more than one edge, or one that is too blunt for its planes
-  before = 8,     // what comes before or after the window
+  before = 8,     // what comes before or after a stretch of the window
   after = 16,
   others = 32,  // other parts of the path
 };
