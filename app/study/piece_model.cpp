@@ -9,7 +9,7 @@
 #include "core/units.hpp"
 #include "metrology/cmm.hpp"
 #include "metrology/plan/strategy.hpp"
-#include "studies/linear_engine.hpp"
+#include "studies/engine/linear_engine.hpp"
 #include "trials/surface_gain.hpp"
 
 namespace frustum::app {

@@ -10,9 +10,9 @@
 
 #include "app/study/study_model.hpp"
 #include "core/result.hpp"
-#include "studies/engine_controls.hpp"
+#include "studies/engine/engine_controls.hpp"
+#include "studies/laws/scheme.hpp"
 #include "studies/samples/sample_block.hpp"
-#include "studies/scheme.hpp"
 
 namespace frustum::app {
 

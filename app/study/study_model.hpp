@@ -17,7 +17,7 @@
 
 #include "app/study/study_file.hpp"
 #include "core/result.hpp"
-#include "studies/factors.hpp"
+#include "studies/laws/factors.hpp"
 
 namespace frustum::app {
 

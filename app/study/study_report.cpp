@@ -8,8 +8,8 @@
 #include "app/study/sampler.hpp"
 #include "report/number_text.hpp"
 #include "report/page/study_page.hpp"
-#include "studies/conformity_risk.hpp"
-#include "studies/order_statistics.hpp"
+#include "studies/statistics/conformity_risk.hpp"
+#include "studies/statistics/order_statistics.hpp"
 
 namespace frustum::app {
 namespace {

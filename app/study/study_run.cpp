@@ -7,7 +7,7 @@
 #include <chrono>
 
 #include "app/study/study_statistics.hpp"
-#include "studies/summary.hpp"
+#include "studies/statistics/summary.hpp"
 
 namespace frustum::app {
 namespace {

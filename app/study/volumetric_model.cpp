@@ -8,8 +8,8 @@
 #include "core/units.hpp"
 #include "kinematics/errors/error_gain.hpp"
 #include "kinematics/model/chain.hpp"
-#include "studies/normal_length.hpp"
-#include "studies/summary.hpp"
+#include "studies/statistics/normal_length.hpp"
+#include "studies/statistics/summary.hpp"
 
 namespace frustum::app {
 namespace {

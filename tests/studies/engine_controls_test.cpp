@@ -1,4 +1,4 @@
-#include "studies/engine_controls.hpp"
+#include "studies/engine/engine_controls.hpp"
 
 #include <cmath>
 

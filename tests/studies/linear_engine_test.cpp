@@ -1,12 +1,12 @@
-#include "studies/linear_engine.hpp"
+#include "studies/engine/linear_engine.hpp"
 
 #include <tbb/global_control.h>
 
 #include <cmath>
 #include <cstring>
 
-#include "studies/order_statistics.hpp"
-#include "studies/summary.hpp"
+#include "studies/statistics/order_statistics.hpp"
+#include "studies/statistics/summary.hpp"
 #include "tests/law_count.hpp"
 #include "tests/studies/populations.hpp"
 

@@ -1,4 +1,4 @@
-#include "studies/volumetric_point.hpp"
+#include "studies/engine/volumetric_point.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "kinematics/errors/error_draw.hpp"
 #include "kinematics/model/chain.hpp"
 #include "kinematics/model/inverse.hpp"
-#include "studies/order_statistics.hpp"
+#include "studies/statistics/order_statistics.hpp"
 #include "tests/studies/populations.hpp"
 
 namespace frustum::studies {
