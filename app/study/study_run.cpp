@@ -147,6 +147,7 @@ Result<StudyEnd> StudyRun::run(const StudyWork& work, const Interruption& interr
   studies::Campaign campaign;
   campaign.job = work.job;
   campaign.jobs = work.jobs;
+  campaign.draws_per_step = sampler->step();
   campaign.interrupted = [&] { return interruption.has_come(); };
   campaign.evaluate = [&](std::uint64_t begin, std::uint64_t count) -> Result<SampleBlock> {
     SampleBlock block = sampler->sample(begin, count);

@@ -25,16 +25,22 @@ constexpr double kLeftOut = 1e-4;
 
 constexpr std::size_t padded(std::size_t n, std::size_t to) { return (n + to - 1) / to * to; }
 
-// A characteristic as the engine evaluates it: gains of its live columns.
-struct LaneCharacteristic {
-  bool is_range = false;
+// Points that are looked at together, as the engine evaluates them: gains of their live columns.
+struct LanePoints {
   std::vector<std::size_t> columns{};  // live
   std::size_t width = 0;               // of a row of gains: columns padded to 8
-  std::vector<double> gains{};         // points (1 for a sum) x width
+  std::vector<double> gains{};         // points x width
   std::vector<double> nominal{};
   std::vector<float> per_weight{};  // 1 / largest weight, by live column
-  ScreenFactors screen{};
-  double screen_offset = 0.0;  // bound of what rounding the nominal adds
+  ScreenFactors screen{};           // where extremes are asked for
+};
+
+enum class Size : std::uint8_t { sum, range, reach, length };
+struct LaneCharacteristic {
+  Size size = Size::sum;
+  double factor = 1.0;
+  std::size_t dimensions = 1;      // of vectors
+  std::vector<LanePoints> rows{};  // a range of each, of which the worst counts; else one
 };
 
 // max over the points of sum |g_ij|.
@@ -43,7 +49,7 @@ double largest_row_sum(const Eigen::MatrixXd& m) {
 }
 
 // The nominal is one more column, whose weight is 1.
-void make_screen(LaneCharacteristic& c, const Eigen::MatrixXd& scaled) {
+void make_screen(LanePoints& points, const Eigen::MatrixXd& scaled) {
   const SingularValues svd = singular_values(scaled, SingularVectors::thin);
   const double largest = scaled.rowwise().norm().maxCoeff();
   Eigen::Index rank = 0;
@@ -52,7 +58,7 @@ void make_screen(LaneCharacteristic& c, const Eigen::MatrixXd& scaled) {
     rest -= svd.values[rank] * svd.left.col(rank) * svd.right.col(rank).transpose();
     ++rank;
   }
-  ScreenFactors& s = c.screen;
+  ScreenFactors& s = points.screen;
   s.points = padded(static_cast<std::size_t>(scaled.rows()), 4);
   s.columns = static_cast<std::size_t>(scaled.cols());
   s.rank = padded(static_cast<std::size_t>(std::max<Eigen::Index>(rank, 1)), 4);
@@ -80,21 +86,10 @@ void make_screen(LaneCharacteristic& c, const Eigen::MatrixXd& scaled) {
   s.rounding = 1.01 * roundings * 0x1p-24 * largest * std::sqrt(static_cast<double>(s.rank));
 }
 
-LaneCharacteristic lanes_of(const LinearCharacteristic& characteristic,
-                            const std::vector<double>& largest_weights) {
-  LaneCharacteristic lanes;
-  Eigen::MatrixXd gains;
-  Eigen::VectorXd nominal;
-  if (const auto* sum = std::get_if<LinearSum>(&characteristic.of)) {
-    gains = sum->gains.transpose();
-    nominal = Eigen::VectorXd::Constant(1, sum->constant);
-  } else {
-    const auto& range = std::get<LinearRange>(characteristic.of);
-    lanes.is_range = true;
-    gains = range.gains;
-    nominal = range.nominal;
-  }
+LanePoints points_of(const Eigen::VectorXd& nominal, const Eigen::MatrixXd& gains,
+                     const std::vector<double>& largest_weights, bool screened) {
   assert(static_cast<std::size_t>(gains.cols()) == largest_weights.size());
+  LanePoints lanes;
   Eigen::VectorXd reach(gains.cols());
   for (Eigen::Index j = 0; j < gains.cols(); ++j) {
     reach[j] = gains.col(j).cwiseAbs().maxCoeff() * largest_weights[static_cast<std::size_t>(j)];
@@ -119,9 +114,43 @@ LaneCharacteristic lanes_of(const LinearCharacteristic& characteristic,
   }
   scaled.col(live) = nominal;
   lanes.nominal.assign(nominal.data(), nominal.data() + nominal.size());
-  if (lanes.is_range) make_screen(lanes, scaled);
+  if (screened) make_screen(lanes, scaled);
   return lanes;
 }
+
+// One overload a kind.
+struct LanesOf {
+  const std::vector<double>& largest_weights;
+
+  LaneCharacteristic operator()(const LinearSum& sum) const {
+    return {.rows = {points_of(Eigen::VectorXd::Constant(1, sum.constant), sum.gains.transpose(),
+                               largest_weights, false)}};
+  }
+  LaneCharacteristic operator()(const LinearRange& range) const {
+    LaneCharacteristic lanes{.size = Size::range};
+    Eigen::Index first = 0;
+    const auto add = [&](std::size_t points) {
+      const auto count = static_cast<Eigen::Index>(points);
+      lanes.rows.push_back(points_of(range.nominal.segment(first, count),
+                                     range.gains.middleRows(first, count), largest_weights, true));
+      first += count;
+    };
+    for (const std::size_t count : range.rows) add(count);
+    if (range.rows.empty()) add(static_cast<std::size_t>(range.nominal.size()));
+    return lanes;
+  }
+  LaneCharacteristic operator()(const LinearReach& reach) const {
+    return {.size = Size::reach,
+            .factor = reach.factor,
+            .rows = {points_of(reach.nominal, reach.gains, largest_weights, true)}};
+  }
+  LaneCharacteristic operator()(const LinearLength& length) const {
+    return {.size = Size::length,
+            .factor = length.factor,
+            .dimensions = length.dimensions,
+            .rows = {points_of(length.nominal, length.gains, largest_weights, false)}};
+  }
+};
 
 // What one task works in.
 struct Workspace {
@@ -142,6 +171,21 @@ struct LinearEngine::State {
   std::vector<bool> live_column{};
   std::vector<bool> live_variable{};
 
+  // Columns that move any point, and what they are made of, are drawn.
+  void use(const std::vector<std::size_t>& columns) {
+    for (const std::size_t j : columns) {
+      live_column[j] = true;
+      const Column& column = set.columns()[j];
+      use_amount(column.amount);
+      if (column.phase) use_amount(*column.phase);
+    }
+  }
+  void use_amount(std::size_t amount) {
+    for (const DrawnAmount::Part& part : set.amounts()[amount].parts) {
+      live_variable[part.variable] = true;
+    }
+  }
+
   [[nodiscard]] Workspace workspace() const {
     Workspace w;
     w.variables.resize(set.variables().size());
@@ -150,10 +194,12 @@ struct LinearEngine::State {
     w.uniform.resize(set.variables().size());
     std::size_t columns = 1, rank = 0, points = 0, width = 0;
     for (const LaneCharacteristic& c : characteristics) {
-      columns = std::max(columns, c.columns.size() + 1);
-      rank = std::max(rank, c.screen.rank);
-      points = std::max(points, c.screen.points);
-      width = std::max(width, c.width);
+      for (const LanePoints& row : c.rows) {
+        columns = std::max(columns, row.columns.size() + 1);
+        rank = std::max(rank, row.screen.rank);
+        points = std::max(points, row.screen.points);
+        width = std::max(width, row.width);
+      }
     }
     w.scaled.resize(columns);
     w.combinations.resize(rank);
@@ -242,23 +288,27 @@ struct LinearEngine::State {
     }
   }
 
-  // Values of one characteristic for the weights of the lanes.
-  void evaluate(const LaneCharacteristic& c, Workspace& w, LaneRow<double>& out) const {
-    for (std::size_t k = 0; k < c.columns.size(); ++k) {
-      const LaneRow<double>& of = w.weights[c.columns[k]];
-      for (std::size_t l = 0; l < kLanes; ++l) w.rows[l * c.width + k] = of.at[l];
+  // Weights of the live columns, a draw after the other.
+  static void lay_out(const LanePoints& points, Workspace& w) {
+    for (std::size_t k = 0; k < points.columns.size(); ++k) {
+      const LaneRow<double>& of = w.weights[points.columns[k]];
+      for (std::size_t l = 0; l < kLanes; ++l) w.rows[l * points.width + k] = of.at[l];
     }
     for (std::size_t l = 0; l < kLanes; ++l) {
-      for (std::size_t k = c.columns.size(); k < c.width; ++k) w.rows[l * c.width + k] = 0.0;
+      for (std::size_t k = points.columns.size(); k < points.width; ++k) {
+        w.rows[l * points.width + k] = 0.0;
+      }
     }
-    const auto point = [&](std::size_t i, std::size_t l) {
-      return c.nominal[i] +
-             kernels->dot(c.gains.data() + i * c.width, w.rows.data() + l * c.width, c.width);
-    };
-    if (!c.is_range) {
-      for (std::size_t l = 0; l < kLanes; ++l) out.at[l] = point(0, l);
-      return;
-    }
+  }
+
+  [[nodiscard]] double point(const LanePoints& points, const Workspace& w, std::size_t i,
+                             std::size_t l) const {
+    return points.nominal[i] + kernels->dot(points.gains.data() + i * points.width,
+                                            w.rows.data() + l * points.width, points.width);
+  }
+
+  // Places of all points that can be an extreme of a lane, in w.places; returns how many.
+  std::size_t screen(const LanePoints& c, Workspace& w) const {
     LaneRow<float> square, most, upper, lower;
     for (std::size_t l = 0; l < kLanes; ++l) square.at[l] = most.at[l] = 1.0F;  // of the nominal
     for (std::size_t k = 0; k < c.columns.size(); ++k) {
@@ -284,20 +334,67 @@ struct LinearEngine::State {
       upper.at[l] = static_cast<float>(upper.at[l] - slack);
       lower.at[l] = static_cast<float>(lower.at[l] + slack);
     }
-    const std::size_t count =
-        kernels->outside(w.screens.data(), c.nominal.size(), upper, lower, w.places.data());
+    return kernels->outside(w.screens.data(), c.nominal.size(), upper, lower, w.places.data());
+  }
+
+  struct Extremes {
     LaneRow<double> highest, lowest;
-    for (std::size_t l = 0; l < kLanes; ++l) {
-      highest.at[l] = -std::numeric_limits<double>::infinity();
-      lowest.at[l] = std::numeric_limits<double>::infinity();
-    }
+  };
+  Extremes extremes(const LanePoints& points, Workspace& w) const {
+    lay_out(points, w);
+    const std::size_t count = screen(points, w);
+    Extremes found;
+    found.highest.at.fill(-std::numeric_limits<double>::infinity());
+    found.lowest.at.fill(std::numeric_limits<double>::infinity());
     for (std::size_t n = 0; n < count; ++n) {
       const std::size_t i = w.places[n] / kLanes, l = w.places[n] % kLanes;
-      const double x = point(i, l);
-      highest.at[l] = std::max(highest.at[l], x);
-      lowest.at[l] = std::min(lowest.at[l], x);
+      const double x = point(points, w, i, l);
+      found.highest.at[l] = std::max(found.highest.at[l], x);
+      found.lowest.at[l] = std::min(found.lowest.at[l], x);
     }
-    for (std::size_t l = 0; l < kLanes; ++l) out.at[l] = highest.at[l] - lowest.at[l];
+    return found;
+  }
+
+  // Of one lane: the square of the longest vector.
+  [[nodiscard]] double longest_square(const LaneCharacteristic& c, const Workspace& w,
+                                      std::size_t l) const {
+    const LanePoints& parts = c.rows.front();
+    double longest = 0.0;
+    for (std::size_t first = 0; first < parts.nominal.size(); first += c.dimensions) {
+      double square = 0.0;
+      for (std::size_t i = first; i < first + c.dimensions; ++i) {
+        const double x = point(parts, w, i, l);
+        square += x * x;
+      }
+      longest = std::max(longest, square);
+    }
+    return longest;
+  }
+
+  // Values of one characteristic for the weights of the lanes.
+  void evaluate(const LaneCharacteristic& c, Workspace& w, LaneRow<double>& out) const {
+    if (c.size == Size::range) {
+      out.at.fill(0.0);
+      for (const LanePoints& row : c.rows) {
+        const Extremes found = extremes(row, w);
+        for (std::size_t l = 0; l < kLanes; ++l) {
+          out.at[l] = std::max(out.at[l], found.highest.at[l] - found.lowest.at[l]);
+        }
+      }
+      return;
+    }
+    if (c.size == Size::reach) {
+      const Extremes found = extremes(c.rows.front(), w);
+      for (std::size_t l = 0; l < kLanes; ++l) {
+        out.at[l] = c.factor * std::max(found.highest.at[l], -found.lowest.at[l]);
+      }
+      return;
+    }
+    lay_out(c.rows.front(), w);
+    for (std::size_t l = 0; l < kLanes; ++l) {
+      out.at[l] = c.size == Size::sum ? point(c.rows.front(), w, 0, l)
+                                      : c.factor * std::sqrt(longest_square(c, w, l));
+    }
   }
 
   // `fill` puts the weights of draws first .. first + 15 into the workspace.
@@ -330,18 +427,8 @@ LinearEngine::LinearEngine(const FactorSet& set, const LinearModel& model, Lanes
   state->live_column.assign(set.columns().size(), false);
   state->live_variable.assign(set.variables().size(), false);
   for (const LinearCharacteristic& c : model.characteristics) {
-    state->characteristics.push_back(lanes_of(c, largest));
-    for (const std::size_t j : state->characteristics.back().columns) {
-      state->live_column[j] = true;
-      const Column& column = set.columns()[j];
-      const auto use = [&](std::size_t amount) {
-        for (const DrawnAmount::Part& part : set.amounts()[amount].parts) {
-          state->live_variable[part.variable] = true;
-        }
-      };
-      use(column.amount);
-      if (column.phase) use(*column.phase);
-    }
+    state->characteristics.push_back(std::visit(LanesOf{largest}, c.of));
+    for (const LanePoints& row : state->characteristics.back().rows) state->use(row.columns);
   }
   state_ = std::move(state);
 }
@@ -382,8 +469,8 @@ std::vector<double> LinearEngine::evaluate_weights(std::span<const double> weigh
 }
 
 LinearEngine::Screen LinearEngine::screen(std::size_t characteristic) const {
-  const LaneCharacteristic& c = state_->characteristics[characteristic];
-  return {c.columns.size(), c.screen.rank, c.screen.left_out};
+  const LanePoints& points = state_->characteristics[characteristic].rows.front();
+  return {points.columns.size(), points.screen.rank, points.screen.left_out};
 }
 
 }  // namespace frustum::studies

@@ -1,6 +1,8 @@
 #include "studies/engine/linear_model.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "core/linear_algebra.hpp"
 
@@ -61,12 +63,55 @@ Eigen::MatrixXd element_motions(std::span<const Vec3> points, std::span<const Ve
   return motions;
 }
 
+namespace {
+
+double worst_range(const LinearRange& range, const Eigen::VectorXd& moved) {
+  if (range.rows.empty()) return moved.maxCoeff() - moved.minCoeff();
+  double worst = 0.0;
+  Eigen::Index first = 0;
+  for (const std::size_t count : range.rows) {
+    const auto row = moved.segment(first, static_cast<Eigen::Index>(count));
+    worst = std::max(worst, row.maxCoeff() - row.minCoeff());
+    first += row.size();
+  }
+  return worst;
+}
+
+double longest(const LinearLength& length, const Eigen::VectorXd& moved) {
+  const auto dimensions = static_cast<Eigen::Index>(length.dimensions);
+  double square = 0.0;
+  for (Eigen::Index first = 0; first < moved.size(); first += dimensions) {
+    square = std::max(square, moved.segment(first, dimensions).squaredNorm());
+  }
+  return length.factor * std::sqrt(square);
+}
+
+// One overload a kind.
+struct ValueOf {
+  const Eigen::VectorXd& weights;
+
+  double operator()(const LinearSum& sum) const { return sum.constant + sum.gains.dot(weights); }
+  double operator()(const LinearRange& range) const { return worst_range(range, moved(range)); }
+  double operator()(const LinearReach& reach) const {
+    return reach.factor * moved(reach).cwiseAbs().maxCoeff();
+  }
+  double operator()(const LinearLength& length) const { return longest(length, moved(length)); }
+
+  template <typename Points>
+  [[nodiscard]] Eigen::VectorXd moved(const Points& points) const {
+    return points.nominal + points.gains * weights;
+  }
+};
+
+}  // namespace
+
+Eigen::MatrixXd gains_of(const LinearCharacteristic& characteristic) {
+  if (const auto* sum = std::get_if<LinearSum>(&characteristic.of)) return sum->gains.transpose();
+  return std::visit([](const auto& of) -> Eigen::MatrixXd { return of.gains; }, characteristic.of);
+}
+
 double value_of(const LinearCharacteristic& characteristic, const Eigen::VectorXd& weights) {
-  if (const auto* sum = std::get_if<LinearSum>(&characteristic.of))
-    return sum->constant + sum->gains.dot(weights);
-  const auto& range = std::get<LinearRange>(characteristic.of);
-  const Eigen::VectorXd moved = range.nominal + range.gains * weights;
-  return moved.maxCoeff() - moved.minCoeff();
+  return std::visit(ValueOf{weights}, characteristic.of);
 }
 
 }  // namespace frustum::studies

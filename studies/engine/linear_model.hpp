@@ -5,7 +5,10 @@
 //              a sum          c + sum_j g_j w_j
 //              a range        max_i x_i - min_i x_i over the points of a form, after the fit has
 //                             been taken out of the gains (centred(): x less its least-squares
-//                             combination of the element's own motions)
+//                             combination of the element's own motions); of the worst row where
+//                             the points are in rows
+//              a reach        factor x max_i |x_i|
+//              a length       factor x the longest of vectors whose parts the x_i are
 // Units    : weights mm and rad; values as the gains make them (um, urad: see `unit`)
 // Shape    : columns are those of a FactorSet
 // Errors   : none
@@ -30,14 +33,28 @@ struct LinearSum {
 };
 
 struct LinearRange {
-  Eigen::VectorXd nominal{};  // by point
-  Eigen::MatrixXd gains{};    // points x columns
+  Eigen::VectorXd nominal{};        // by point
+  Eigen::MatrixXd gains{};          // points x columns
+  std::vector<std::size_t> rows{};  // points of each row; empty: all are in one
+};
+
+struct LinearReach {
+  double factor = 1.0;
+  Eigen::VectorXd nominal{};
+  Eigen::MatrixXd gains{};
+};
+
+struct LinearLength {
+  double factor = 1.0;
+  std::size_t dimensions = 1;  // parts of a vector
+  Eigen::VectorXd nominal{};   // vector after vector
+  Eigen::MatrixXd gains{};
 };
 
 struct LinearCharacteristic {
   std::string name{};
   std::string unit{};  // "um", "urad", "mm"
-  std::variant<LinearSum, LinearRange> of{};
+  std::variant<LinearSum, LinearRange, LinearReach, LinearLength> of{};
 };
 
 struct LinearModel {
@@ -61,6 +78,9 @@ enum class ElementSize : std::uint8_t {
 [[nodiscard]] Eigen::MatrixXd element_motions(std::span<const Vec3> points,
                                               std::span<const Vec3> normals, ElementSize size,
                                               const Vec3& axis = Vec3::UnitZ());
+
+// Of the sum, or of the points: points x columns.
+[[nodiscard]] Eigen::MatrixXd gains_of(const LinearCharacteristic& characteristic);
 
 // The value of one characteristic, point by point: what the engine is compared with.
 [[nodiscard]] double value_of(const LinearCharacteristic& characteristic,
