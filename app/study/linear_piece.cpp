@@ -18,7 +18,7 @@ using studies::LinearCharacteristic;
 
 constexpr std::uint32_t kCheckedDraws = 3;
 // Points of a feature that show how far a draw is from the middle.
-constexpr Eigen::Index kReachPoints = 64;
+constexpr Eigen::Index kReachPoints = 16;
 
 double shown_value(const metrology::CharacteristicResult& c) {
   const double nominal = c.nominal ? metrology::internal_value(*c.nominal, c.unit) : 0.0;

@@ -1,5 +1,7 @@
 #include "studies/statistics/order_statistics.hpp"
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <boost/math/special_functions/beta.hpp>
 #include <cassert>
@@ -29,6 +31,8 @@ Place place_of(std::size_t n, double p) {
 }
 
 }  // namespace
+
+void sort_values(std::vector<double>& values) { tbb::parallel_sort(values.begin(), values.end()); }
 
 double sorted_quantile(std::span<const double> sorted, double p) {
   assert(!sorted.empty());

@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace frustum::studies {
 
@@ -28,6 +29,8 @@ struct OrderRanks {
 
 inline constexpr double kConfidence = 0.95;
 
+// Ascending, on all cores.
+void sort_values(std::vector<double>& values);
 [[nodiscard]] double sorted_quantile(std::span<const double> sorted, double p);
 // The same of values in any order, whose order is changed.
 [[nodiscard]] double unsorted_quantile(std::span<double> values, double p);

@@ -77,7 +77,7 @@ Summary summary_of(std::span<const double> values, std::span<const double> proba
   summary.sd = values.size() > 1 ? std::sqrt(squares / (n - 1.0)) : 0.0;
   summary.mean_se = summary.sd / std::sqrt(n);
   std::vector<double> sorted(values.begin(), values.end());
-  std::sort(sorted.begin(), sorted.end());
+  sort_values(sorted);
   summary.min = sorted.front();
   summary.max = sorted.back();
   std::vector<std::vector<double>> parts;
