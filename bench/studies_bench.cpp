@@ -5,9 +5,9 @@
 #include <string>
 
 #include "kinematics/errors/error_table.hpp"
-#include "studies/linear_engine.hpp"
-#include "studies/summary.hpp"
-#include "studies/tip_ring.hpp"
+#include "studies/engine/linear_engine.hpp"
+#include "studies/engine/tip_ring.hpp"
+#include "studies/statistics/summary.hpp"
 
 namespace {
 

@@ -149,8 +149,9 @@ class StudyCommand {
       return kBadInput;
     }
     StudyRun run(study_, model_, *engine, ranks_, {*mark, study_.seed});
-    if (work->merge.empty()) announce(run, *work);
+    if (work->merge.empty()) announce(run, *work, engine->result.name);
     const Interruption interruption;
+    drawing_since_ = now();
     progress.begin(fmt::format("draw {} machines", study_.samples));
     const auto end =
         run.run(*work, interruption, [&](const StudyProgress& state) { show(progress, state); });
@@ -170,21 +171,20 @@ class StudyCommand {
     return refuse(problems, options_);
   }
 
-  void announce(const StudyRun& run, const StudyWork& work) const {
+  void announce(const StudyRun& run, const StudyWork& work, const std::string& engine) const {
     if (!ranks_.is_first() || options_.quiet) return;
     const auto seconds = run.estimate(work);
     if (!seconds || *seconds < kLongSeconds) return;
     std::cerr << fmt::format(
         "frustum study: about {} to come ({} draws, engine {}); Ctrl-C ends it in good order, "
         "--resume goes on\n",
-        duration_text(*seconds), study_.samples,
-        study_.engine == studies::EngineKind::automatic ? "as chosen" : "as asked for");
+        duration_text(*seconds), study_.samples, engine);
   }
 
   void show(report::Progress& progress, const StudyProgress& state) const {
     if (state.end == 0) return;
     const double share = static_cast<double>(state.done) / static_cast<double>(state.end);
-    const double seconds = now() - started_;
+    const double seconds = now() - drawing_since_;
     progress.rename(fmt::format("{} of {} draws, {:.0f}/s{}", state.done, state.end,
                                 static_cast<double>(state.done) / std::max(seconds, 1e-3),
                                 state.first.empty() ? "" : ", " + state.first));
@@ -241,6 +241,7 @@ class StudyCommand {
   const StudyModel& model_;
   const studies::Ranks& ranks_;
   double started_;
+  double drawing_since_ = 0.0;
 };
 
 int run_study(const StudyOptions& options) {

@@ -1,8 +1,8 @@
 // Which engine makes the samples of a study, and how far it may be off.
 //
-// Model    : studies/engine_controls.hpp: the first 59 draws by both engines, and again with all
-//            errors doubled. The choice does not depend on how many samples there are, so
-//            that a study may grow
+// Model    : studies/engine/engine_controls.hpp: the first 59 draws by both engines, and again with
+//            all errors doubled. The choice does not depend on how many samples there are, so that
+//            a study may grow
 // Units    : um, urad
 // Shape    : one bound a characteristic
 // Errors   : a linear engine that is asked for and refused, with the reason
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "app/study/sampler.hpp"
-#include "studies/study_result.hpp"
+#include "studies/answers/study_result.hpp"
 
 namespace frustum::app {
 

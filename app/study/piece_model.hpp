@@ -8,7 +8,7 @@
 // Units    : as study_model.hpp
 // Shape    : as study_model.hpp
 // Errors   : those of the nominal trial; a nominal machine whose part is out of its limits
-// Accuracy : full: that of a trial; linear: first order, see studies/engine_controls.hpp
+// Accuracy : full: that of a trial; linear: first order, see studies/engine/engine_controls.hpp
 // Source   : ours
 #pragma once
 

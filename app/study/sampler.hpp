@@ -10,9 +10,9 @@
 
 #include "app/study/study_model.hpp"
 #include "core/result.hpp"
-#include "studies/engine_controls.hpp"
+#include "studies/engine/engine_controls.hpp"
+#include "studies/laws/scheme.hpp"
 #include "studies/samples/sample_block.hpp"
-#include "studies/scheme.hpp"
 
 namespace frustum::app {
 
@@ -28,6 +28,8 @@ class Sampler {
                                             studies::EngineKind engine);
 
   [[nodiscard]] studies::SampleBlock sample(std::uint64_t first, std::uint64_t count) const;
+  // Draws that are worth one call.
+  [[nodiscard]] std::uint64_t step() const;
   [[nodiscard]] std::vector<DrawnMachine> machines(std::uint64_t first, std::uint64_t count) const;
   [[nodiscard]] const studies::Scheme& scheme() const { return scheme_; }
 
@@ -36,6 +38,10 @@ class Sampler {
           studies::Scheme scheme)
       : study_(&study), model_(&model), engine_(engine), scheme_(std::move(scheme)) {}
   void add_columns(studies::SampleBlock& block) const;
+  void add_amounts(const std::vector<DrawnMachine>& drawn, studies::SampleBlock& block) const;
+  void add_passes(studies::SampleBlock& block) const;
+  [[nodiscard]] studies::SampleBlock in_lanes(const studies::LinearEngine& engine,
+                                              std::uint64_t first, std::uint64_t count) const;
 
   const StudyFile* study_;
   const StudyModel* model_;

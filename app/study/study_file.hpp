@@ -17,11 +17,11 @@
 #include "app/job/job.hpp"
 #include "app/study/study_characteristic.hpp"
 #include "core/result.hpp"
-#include "studies/conformity_risk.hpp"
-#include "studies/engine_controls.hpp"
-#include "studies/factors.hpp"
-#include "studies/scheme.hpp"
-#include "studies/shares.hpp"
+#include "studies/answers/shares.hpp"
+#include "studies/engine/engine_controls.hpp"
+#include "studies/laws/factors.hpp"
+#include "studies/laws/scheme.hpp"
+#include "studies/statistics/conformity_risk.hpp"
 
 namespace frustum::app {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "app/study/study_file.hpp"
-#include "studies/study_result.hpp"
+#include "studies/answers/study_result.hpp"
 
 namespace frustum::app {
 

@@ -8,7 +8,7 @@
 #include "app/study/piece_model.hpp"
 #include "app/study/sampler.hpp"
 #include "programs/cone/cone_frustum.hpp"
-#include "studies/summary.hpp"
+#include "studies/statistics/summary.hpp"
 
 namespace frustum::app {
 namespace {

@@ -14,7 +14,7 @@
 #pragma once
 
 #include "app/study/study_model.hpp"
-#include "studies/study_result.hpp"
+#include "studies/answers/study_result.hpp"
 
 namespace frustum::app {
 

@@ -17,7 +17,8 @@
 
 #include "app/study/study_file.hpp"
 #include "core/result.hpp"
-#include "studies/factors.hpp"
+#include "studies/engine/linear_engine.hpp"
+#include "studies/laws/factors.hpp"
 
 namespace frustum::app {
 
@@ -28,7 +29,7 @@ struct DrawnMachine {
 
 struct DrawOutcome {
   std::vector<double> values{};  // by characteristic; empty: the draw failed
-  std::vector<double> points{};  // along the planned normals; where they are asked for
+  std::vector<double> points{};  // along the planned normals; of full ones, if asked for
   double largest_move = 0.0;     // um, of a point; linear alone
   std::string failure{};
 };
@@ -51,8 +52,11 @@ class StudyModel {
 
   [[nodiscard]] virtual const studies::FactorSet& factors() const = 0;
   [[nodiscard]] virtual std::size_t point_count() const = 0;
-  // Of the points that decide: um per mm or rad of the columns' weights.
+  // Of points that show how far a draw is from the middle: um per mm or rad of the weights.
   [[nodiscard]] virtual const Eigen::MatrixXd& gains() const = 0;
+  // Values of all characteristics and, last, the largest motion (um); null where the linear model
+  // is evaluated draw by draw.
+  [[nodiscard]] virtual const studies::LinearEngine* linear_engine() const { return nullptr; }
   // Why the linear engine cannot stand whatever its controls say; empty: it may.
   [[nodiscard]] virtual std::string against_linear() const = 0;
   // Nothing where the characteristic is no range or length of what moves in proportion.
@@ -70,7 +74,14 @@ class StudyModel {
                                                       const EvaluationRequest& request) const = 0;
   [[nodiscard]] virtual std::vector<DrawOutcome> linear(std::span<const DrawnMachine> draws,
                                                         const EvaluationRequest& request) const = 0;
+  // Along the planned normals, um, to first order.
+  [[nodiscard]] virtual std::vector<double> linear_points(const DrawnMachine&) const { return {}; }
 };
+
+// What an engine as StudyModel::linear_engine() has it says of these machines.
+[[nodiscard]] std::vector<DrawOutcome> in_lanes(const studies::LinearEngine& engine,
+                                                const studies::FactorSet& factors,
+                                                std::span<const DrawnMachine> draws, double scale);
 
 // With everything that is done once: the nominal trial, the gains. Both outlive the model.
 [[nodiscard]] Result<std::unique_ptr<StudyModel>> make_model(const StudyFile& study);

@@ -8,8 +8,8 @@
 #include "app/study/sampler.hpp"
 #include "report/number_text.hpp"
 #include "report/page/study_page.hpp"
-#include "studies/conformity_risk.hpp"
-#include "studies/order_statistics.hpp"
+#include "studies/statistics/conformity_risk.hpp"
+#include "studies/statistics/order_statistics.hpp"
 
 namespace frustum::app {
 namespace {
@@ -46,7 +46,7 @@ std::vector<double> limits_of(const studies::CharacteristicResult& c) {
 report::DistributionLine distribution_of(std::vector<double> values,
                                          const studies::CharacteristicResult& c) {
   report::DistributionLine line;
-  std::ranges::sort(values);
+  studies::sort_values(values);
   const std::size_t n = values.size(), points = std::min(n, kDistributionPoints);
   for (std::size_t i = 0; i < points; ++i) {
     const std::size_t k = points < 2 ? 0 : i * (n - 1) / (points - 1);

@@ -7,7 +7,7 @@
 #include "app/study/sample_columns.hpp"
 #include "app/study/study_file.hpp"
 #include "app/study/study_model.hpp"
-#include "studies/study_result.hpp"
+#include "studies/answers/study_result.hpp"
 
 namespace frustum::app {
 

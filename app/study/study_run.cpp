@@ -7,7 +7,7 @@
 #include <chrono>
 
 #include "app/study/study_statistics.hpp"
-#include "studies/summary.hpp"
+#include "studies/statistics/summary.hpp"
 
 namespace frustum::app {
 namespace {
@@ -22,22 +22,24 @@ double seconds_now() {
 
 // Draws of so many seconds are worth keeping before their part is whole.
 constexpr double kWorthKeeping = 2.0;  // s
+constexpr std::size_t kShownDraws = 100'000;
 // Stop rules are looked at after 4096 * 2^k draws.
 constexpr std::uint64_t kFirstLook = 4096;
 
-// The first characteristic so far, for whoever waits; computed anew as the draws grow by half.
+// The first characteristic so far, for whoever waits; computed anew as the draws grow by half, as
+// long as more of them are seen in its digits.
 class FirstStatistic {
  public:
   explicit FirstStatistic(const StudyFile& study) : study_(study) {}
 
   void add(const SampleBlock& block) {
-    if (block.columns.empty()) return;
+    if (block.columns.empty() || values_.size() >= kShownDraws) return;
     const auto& more = block.columns.front().values;
     values_.insert(values_.end(), more.begin(), more.end());
     if (values_.size() < told_ + told_ / 2 || values_.size() < 2) return;
     told_ = values_.size();
     std::vector<double> sorted = values_;
-    std::ranges::sort(sorted);
+    studies::sort_values(sorted);
     const auto interval = studies::quantile_interval(sorted, 0.5);
     const StudyCharacteristic& c = study_.characteristics.front();
     text_ = fmt::format("{} median {:.4g}", c.name, studies::sorted_quantile(sorted, 0.5));
@@ -76,7 +78,10 @@ Result<double> StudyRun::estimate(const StudyWork& work) const {
   if (!sampler) return sampler.error();
   const auto threads =
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  const std::uint64_t few = std::min<std::uint64_t>(2 * threads, end_of_all());
+  // A step of lanes takes milliseconds; of others so many that each thread has two.
+  const bool in_lanes = sampler->step() > studies::kDrawsPerStep;
+  const std::uint64_t few =
+      std::min<std::uint64_t>(in_lanes ? sampler->step() : 2 * threads, end_of_all());
   const double started = seconds_now();
   (void)sampler->sample(0, few);
   const double each = (seconds_now() - started) / static_cast<double>(few);
@@ -147,6 +152,7 @@ Result<StudyEnd> StudyRun::run(const StudyWork& work, const Interruption& interr
   studies::Campaign campaign;
   campaign.job = work.job;
   campaign.jobs = work.jobs;
+  campaign.draws_per_step = sampler->step();
   campaign.interrupted = [&] { return interruption.has_come(); };
   campaign.evaluate = [&](std::uint64_t begin, std::uint64_t count) -> Result<SampleBlock> {
     SampleBlock block = sampler->sample(begin, count);

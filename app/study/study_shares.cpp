@@ -5,7 +5,7 @@
 
 #include "app/study/sampler.hpp"
 #include "core/units.hpp"
-#include "studies/allocation.hpp"
+#include "studies/answers/allocation.hpp"
 
 namespace frustum::app {
 namespace {

@@ -1,7 +1,7 @@
 // Shares of errors in the scatter of a characteristic, and the allocation of their tolerances.
 //
-// Model    : studies/shares.hpp and allocation.hpp. Indices by the linear engine where it stands,
-//            else by whole trials of fewer draws
+// Model    : studies/answers/shares.hpp and allocation.hpp beside it. Indices by the linear engine
+//            where it stands, else by whole trials of fewer draws
 // Units    : um, urad
 // Shape    : a result for the characteristic that is asked for
 // Errors   : groups whose patterns match nothing, or that share an error
@@ -11,7 +11,7 @@
 
 #include "app/study/sample_columns.hpp"
 #include "app/study/study_model.hpp"
-#include "studies/study_result.hpp"
+#include "studies/answers/study_result.hpp"
 
 namespace frustum::app {
 

@@ -8,7 +8,7 @@
 #include "app/study/study_map.hpp"
 #include "app/study/study_shares.hpp"
 #include "app/study/volumetric_model.hpp"
-#include "studies/summary.hpp"
+#include "studies/statistics/summary.hpp"
 
 namespace frustum::app {
 namespace {

@@ -1,6 +1,6 @@
 // From the samples of a study to its result.
 //
-// Model    : studies/summary.hpp, conformity_risk.hpp, shares.hpp, allocation.hpp. A draw that
+// Model    : studies/statistics/ and studies/answers/. A draw that
 //            failed makes no part, so that it counts as one that does not conform
 // Units    : um, urad
 // Shape    : one result a characteristic, in the order of the plan
@@ -16,7 +16,7 @@
 #include "app/study/engine_choice.hpp"
 #include "app/study/sample_columns.hpp"
 #include "app/study/study_model.hpp"
-#include "studies/study_result.hpp"
+#include "studies/answers/study_result.hpp"
 
 namespace frustum::app {
 

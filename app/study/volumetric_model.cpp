@@ -8,8 +8,8 @@
 #include "core/units.hpp"
 #include "kinematics/errors/error_gain.hpp"
 #include "kinematics/model/chain.hpp"
-#include "studies/normal_length.hpp"
-#include "studies/summary.hpp"
+#include "studies/statistics/normal_length.hpp"
+#include "studies/statistics/summary.hpp"
 
 namespace frustum::app {
 namespace {
@@ -26,11 +26,19 @@ class VolumetricModel final : public StudyModel {
     }
     fixed_ = first_order(factors_.fixed());
     nominal_ = tip_of(GeometricErrors{});
+    const auto length = [&](const char* name, const Vec3& constant) {
+      return studies::LinearCharacteristic{name, "um",
+                                           studies::LinearLength{1.0, 3, constant, gains_}};
+    };
+    engine_ = std::make_unique<studies::LinearEngine>(
+        factors_, studies::LinearModel{{length(kVolumetricError.data(), fixed_),
+                                        length("largest move", Vec3::Zero())}});
   }
 
   const studies::FactorSet& factors() const override { return factors_; }
   std::size_t point_count() const override { return 0; }
   const Eigen::MatrixXd& gains() const override { return gains_; }
+  const studies::LinearEngine* linear_engine() const override { return engine_.get(); }
   std::string against_linear() const override {
     return factors_.nonlinear().empty()
                ? std::string()
@@ -68,13 +76,7 @@ class VolumetricModel final : public StudyModel {
 
   std::vector<DrawOutcome> linear(std::span<const DrawnMachine> draws,
                                   const EvaluationRequest& request) const override {
-    std::vector<DrawOutcome> outcomes(draws.size());
-    tbb::parallel_for(std::size_t{0}, draws.size(), [&](std::size_t i) {
-      const Vec3 moved = gains_ * weights_of(draws[i], request.scale);
-      outcomes[i].values = {(fixed_ + moved).norm()};
-      outcomes[i].largest_move = moved.norm();
-    });
-    return outcomes;
+    return in_lanes(*engine_, factors_, draws, request.scale);
   }
 
  private:
@@ -109,6 +111,7 @@ class VolumetricModel final : public StudyModel {
   Eigen::MatrixXd gains_{};
   Vec3 fixed_ = Vec3::Zero();
   Vec3 nominal_ = Vec3::Zero();
+  std::unique_ptr<studies::LinearEngine> engine_{};
 };
 
 }  // namespace
@@ -147,6 +150,27 @@ std::optional<studies::ExactLength> exact_length(const StudyModel& model,
   }
   if (limit) exact.conform = length.probability(*limit);
   return exact;
+}
+
+std::vector<DrawOutcome> in_lanes(const studies::LinearEngine& engine,
+                                  const studies::FactorSet& factors,
+                                  std::span<const DrawnMachine> draws, double scale) {
+  const std::size_t columns = factors.columns().size();
+  std::vector<double> weights(draws.size() * columns);
+  for (std::size_t i = 0; i < draws.size(); ++i) {
+    factors.weights(draws[i].values, std::span(weights).subspan(i * columns, columns));
+  }
+  for (double& weight : weights) weight *= scale;
+  const std::vector<double> values = engine.evaluate_weights(weights);
+  std::vector<DrawOutcome> outcomes(draws.size());
+  for (std::size_t i = 0; i < draws.size(); ++i) {
+    const std::size_t last = engine.characteristic_count() - 1;
+    for (std::size_t c = 0; c < last; ++c) {
+      outcomes[i].values.push_back(values[c * draws.size() + i]);
+    }
+    outcomes[i].largest_move = values[last * draws.size() + i];
+  }
+  return outcomes;
 }
 
 Result<std::unique_ptr<StudyModel>> make_model(const StudyFile& study) {

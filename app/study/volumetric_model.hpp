@@ -2,7 +2,7 @@
 //
 // Model    : full: the exact chain of the draw, tip in the table frame less the nominal one.
 //            linear: to first order. The characteristic is the length of the difference; of normal
-//            laws its distribution is known exactly (studies/normal_length.hpp)
+//            laws its distribution is known exactly (studies/statistics/normal_length.hpp)
 // Units    : as study_model.hpp
 // Shape    : as study_model.hpp
 // Errors   : those of the factors
@@ -11,7 +11,7 @@
 #pragma once
 
 #include "app/study/study_model.hpp"
-#include "studies/study_result.hpp"
+#include "studies/answers/study_result.hpp"
 
 namespace frustum::app {
 

@@ -136,8 +136,8 @@ std::vector<Vec6> strong_ways(const Task& task) {
   return strong;
 }
 
-// The largest change of a deviation by a motion along each free direction that the points, laid into
-// the planned geometry, do not tell.
+// The largest change of a deviation by a motion along each free direction that the points, laid
+// into the planned geometry, do not tell.
 double bend_of_untold(const Task& laid) {
   constexpr double kTurn = kRadPerDeg;
   const auto without = [](Vec6 v, const std::vector<Vec6>& others) {

@@ -27,7 +27,7 @@ Result<CampaignEnd> compute_part(const Campaign& campaign, const SampleFolder& f
   };
   for (std::uint64_t next = kept; next < end; next = block.first_draw + block.count) {
     if (campaign.interrupted()) return keep();
-    auto step = campaign.evaluate(next, std::min(kDrawsPerStep, end - next));
+    auto step = campaign.evaluate(next, std::min(campaign.draws_per_step, end - next));
     if (!step) return step.error();
     append(block, *step);
     campaign.progress(step->count);

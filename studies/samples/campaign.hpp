@@ -17,12 +17,13 @@
 
 namespace frustum::studies {
 
-// Draws of one evaluation: a call of it is not interrupted.
+// Draws of one evaluation where nothing else is said: a call of it is not interrupted.
 inline constexpr std::uint64_t kDrawsPerStep = 1024;
 
 struct Campaign {
   // Draws from `first` on; failed ones are listed in the block.
   std::function<Result<SampleBlock>(std::uint64_t first, std::uint64_t count)> evaluate{};
+  std::uint64_t draws_per_step = kDrawsPerStep;
   std::function<bool()> interrupted = [] { return false; };
   std::function<void(std::uint64_t draws)> progress = [](std::uint64_t) {};  // of this rank
   // Draws take so long that each step is worth keeping.

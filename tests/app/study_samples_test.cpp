@@ -67,6 +67,8 @@ TEST_F(StudySamplesSystem, AreTheSameMergedFromParts) {
   const Outcome merged = run(study + "--out merged --merge p1 p2 p3");
   ASSERT_EQ(merged.exit_code, 0) << merged.err;
   EXPECT_EQ(results_in("merged"), results_in("whole"));
+  ASSERT_EQ(run(study + "--part 1/1 --out one").exit_code, 0);
+  EXPECT_EQ(results_in("one"), results_in("whole"));
   const Outcome missing = run(study + "--out few --merge p1 p3");
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_THAT(missing.err, HasSubstr("missing"));
@@ -78,7 +80,7 @@ TEST_F(StudySamplesSystem, AreTheSameForAnyRanks) {
   const std::string study = " study pose.toml --quiet --samples 70000 ";
   ASSERT_EQ(run(study + "--out r0").exit_code, 0);
   const auto expected = results_in("r0");
-  for (const char* ranks : {"1", "2", "3"}) {
+  for (const char* ranks : {"1", "2", "3", "7"}) {
     const Outcome outcome = shell(std::string("mpirun --allow-run-as-root --oversubscribe -n ") +
                                   ranks + " " FRUSTUM_PROGRAM + study + "--out r" + ranks);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -105,9 +107,12 @@ TEST_F(StudySamplesSystem, SurviveAnInterruption) {
   write_pose_study("engine = \"full\"\n");
   ASSERT_EQ(run("study pose.toml --quiet --samples 30000 --out whole").exit_code, 0);
   const Outcome ended = shell("timeout -s INT 0.4 " FRUSTUM_PROGRAM
-                              " study pose.toml --samples 400000000 --seed 1 --out cut");
+                              " study pose.toml --samples 4000000000 --seed 1 --out cut");
   EXPECT_EQ(ended.exit_code, 124) << ended.err;  // of timeout, which has sent the signal
   EXPECT_THAT(ended.err, HasSubstr("--resume goes on"));
+  // Hours: said before it starts.
+  EXPECT_THAT(ended.err, testing::ContainsRegex("about [0-9.]+ (min|h) to come \\(4000000000 "
+                                                "draws, engine full\\)"));
   EXPECT_FALSE(fs::exists(folder_ / "cut" / "result.json"));
   ASSERT_EQ(run("study pose.toml --quiet --samples 30000 --out cut --resume").exit_code, 0);
   EXPECT_EQ(results_in("cut"), results_in("whole"));

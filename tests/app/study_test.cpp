@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/command_line.hpp"
+#include "tests/law_count.hpp"
 
 namespace frustum {
 namespace {
@@ -174,6 +175,41 @@ TEST_F(StudySystem, SaysByItsExitCodeWhatWasNotReached) {
       result_of("w.toml --samples 100000 --stop \"volumetric.error q50=0.4um\" --out s");
   EXPECT_EQ(stopped["samples"], 4096 * 2) << "after 4096 the half width is about 0.5";
   (void)result_of("w.toml --samples 5000 --stop \"volumetric.error q50=0.01um\"", 1);
+}
+
+// By itself it goes to whole trials, and says why; asked for the linear engine, it refuses.
+TEST_F(StudySystem, TakesWholeTrialsWhereErrorsDoNotActLinearly) {
+  write_cone();
+  write("piece/cone.plan.toml", read(folder_ / "piece/cone.plan.toml") +
+                                    "\n[[characteristic]]\nname = \"flange.flatness\"\nkind = "
+                                    "\"flatness\"\nfeature = \"flange\"\ntolerance = \"100 um\"\n");
+  const std::string cone = "job = \"piece/job.toml\"\n[errors]\n";
+  const std::string pose =
+      "target = \"volumetric\"\nmachine = \"iwf-bc\"\naxes = "
+      "\"X=100,Y=-50,Z=200,B=-30,C=40\"\n[errors]\n";
+  const std::string beside = "whole trials differ from the linear model by";
+  const struct {
+    const char* what;
+    std::string study, reason;
+  } cases[] = {
+      {"an axis that turns at a probe", cone + "EXX = \"reversal uniform 0um..4um\"\n", beside},
+      {"a dish", cone + "EBX = \"linear uniform -300urad..300urad\"\n", beside},
+      {"small errors", pose + "EB0C = \"uniform -20urad..20urad\"\n", ""},
+      {"a thousand times larger", pose + "EB0C = \"uniform -20mrad..20mrad\"\n", "above 0.05 um"},
+  };
+  for (const auto& c : cases) {
+    write("s.toml", c.study);
+    const json engine = result_of("s.toml --samples 2")["engine"];
+    EXPECT_EQ(engine["name"], c.reason.empty() ? "linear" : "full") << c.what;
+    if (!c.reason.empty()) {
+      EXPECT_THAT(engine["reason"].get<std::string>(), HasSubstr(c.reason)) << c.what;
+    }
+  }
+  if (proof::laws_are_reduced()) return;  // all controls
+  write("s.toml", cases[1].study);
+  const Outcome asked = run("study s.toml --samples 2 --engine linear");
+  EXPECT_EQ(asked.exit_code, 2);
+  EXPECT_THAT(asked.err, HasSubstr("grows 2.00 fold"));
 }
 
 TEST_F(StudySystem, RisksAndSharesAreAsked) {

@@ -21,7 +21,7 @@ const std::map<std::string, Room>& rooms() {
       {"report", {6, {"html", "chart", "picture", "page", "exchange", "sheet"}}},
       {"trials", {7, {"population"}}},
       {"calibration", {8, {"identify", "design", "compensate"}}},
-      {"studies", {8, {"samples"}}},
+      {"studies", {8, {"laws", "statistics", "engine", "samples", "answers"}}},
       {"app", {9, {"job", "study", "view", "command"}}},
   };
   return kRooms;

@@ -1,11 +1,11 @@
-#include "studies/allocation.hpp"
+#include "studies/answers/allocation.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/random.hpp"
-#include "studies/linear_engine.hpp"
-#include "studies/shares.hpp"
+#include "studies/answers/shares.hpp"
+#include "studies/engine/linear_engine.hpp"
 #include "tests/law_count.hpp"
 #include "tests/studies/populations.hpp"
 

@@ -1,10 +1,10 @@
-#include "studies/conformity_risk.hpp"
+#include "studies/statistics/conformity_risk.hpp"
 
 #include <cmath>
 
 #include "core/random.hpp"
-#include "studies/law.hpp"
-#include "studies/linear_engine.hpp"
+#include "studies/engine/linear_engine.hpp"
+#include "studies/laws/law.hpp"
 #include "tests/law_count.hpp"
 #include "tests/studies/populations.hpp"
 

@@ -1,10 +1,11 @@
-#include "studies/engine_controls.hpp"
+#include "studies/engine/engine_controls.hpp"
 
 #include <cmath>
 
 #include "kinematics/model/chain.hpp"
 #include "kinematics/model/inverse.hpp"
 #include "metrology/characteristic/round_profile.hpp"
+#include "tests/law_count.hpp"
 #include "tests/studies/populations.hpp"
 
 namespace frustum::studies {
@@ -55,6 +56,47 @@ TEST(EngineControlsReference, DifferencesOnTheRingGrowFourFoldAndAreThoseOfTheIn
     const double bound = linear_bound(controls, 1.0, 1.2);
     EXPECT_LT(bound, 0.025);
     RecordProperty(key, std::to_string(controls.growth) + " " + std::to_string(bound));
+  }
+}
+
+// Draws that are no controls: none is farther off than the bound says.
+TEST(EngineControlsLaws, NoWholeDrawIsFartherOffThanTheBound) {
+  const kinematics::Machine machine = machine_named("iwf-bc");
+  const auto draws = proof::law_count<std::uint32_t>(2000, 150);
+  for (const char* setup : {"proposed", "comparison"}) {
+    for (const char read : {'A', 'R'}) {
+      const RingPopulation& p = RingPopulation::of(std::string(setup) + "/cone", read);
+      const ConeRing ring = ring_named(setup);
+      const auto path = cone_path(machine, ring);
+      ASSERT_TRUE(path);
+      ControlValues values;
+      double of_controls = 0.0, of_draws = 0.0, farthest = 0.0;
+      std::vector<double> drawn(p.set.variables().size());
+      for (std::uint32_t d = 0; d < draws; ++d) {
+        p.set.draw(1, d, drawn);
+        const auto errors = p.set.errors_at(machine, drawn);
+        ASSERT_TRUE(errors);
+        const Eigen::VectorXd w = p.weights(1, d);
+        const double full = exact_form(machine, ring, *path, *errors);
+        const double linear = value_of(p.model.characteristics[0], w);
+        const double move = (p.gains * w).cwiseAbs().maxCoeff();
+        of_draws = std::max(of_draws, move);
+        farthest = std::max(farthest, std::abs(full - linear));
+        if (d >= kControls) continue;
+        of_controls = std::max(of_controls, move);
+        values.full.push_back(full);
+        values.linear.push_back(linear);
+        values.full_doubled.push_back(exact_form(machine, ring, *path, errors->plus(*errors, 1.0)));
+        values.linear_doubled.push_back(value_of(p.model.characteristics[0], 2.0 * w));
+      }
+      const EngineControls controls = engine_controls({&values, 1}, 0.002);
+      EXPECT_TRUE(controls.refusal.empty()) << controls.refusal;
+      const double bound = linear_bound(controls, of_controls, of_draws);
+      EXPECT_LE(farthest, bound) << setup << read;
+      EXPECT_LE(bound, 0.025) << setup << read;
+      RecordProperty(std::string(setup) + read,
+                     std::to_string(farthest) + " of " + std::to_string(bound));
+    }
   }
 }
 

@@ -1,11 +1,11 @@
-#include "studies/factors.hpp"
+#include "studies/laws/factors.hpp"
 
 #include <cmath>
 
 #include "core/random.hpp"
 #include "kinematics/errors/error_draw.hpp"
-#include "studies/correlation.hpp"
-#include "studies/error_pattern.hpp"
+#include "studies/laws/correlation.hpp"
+#include "studies/laws/error_pattern.hpp"
 #include "tests/studies/populations.hpp"
 
 namespace frustum::studies {

@@ -1,4 +1,4 @@
-#include "studies/law.hpp"
+#include "studies/laws/law.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "studies/linear_engine.hpp"
+#include "studies/engine/linear_engine.hpp"
 
 #include <tbb/global_control.h>
 
 #include <cmath>
 #include <cstring>
 
-#include "studies/order_statistics.hpp"
-#include "studies/summary.hpp"
+#include "studies/statistics/order_statistics.hpp"
+#include "studies/statistics/summary.hpp"
 #include "tests/law_count.hpp"
 #include "tests/studies/populations.hpp"
 
@@ -32,6 +32,27 @@ TEST(LinearEngine, EqualsTheEvaluationOfEveryPoint) {
         EXPECT_NEAR(values[c * kDraws + d], value_of(population.model.characteristics[c], w), 1e-12)
             << place << d;
       }
+    }
+  }
+}
+
+// The same points as other sizes: rows, the farthest point, vectors.
+TEST(LinearEngine, EqualsTheEvaluationOfEveryPointForEverySize) {
+  const RingPopulation& population = RingPopulation::of("proposed/cone", 'A');
+  const auto& range = std::get<LinearRange>(population.model.characteristics[0].of);
+  LinearRange rows = range;
+  rows.rows = {100, 1, 200, 59};
+  const LinearModel model{{{"rows", "um", rows},
+                           {"reach", "um", LinearReach{2.0, range.nominal, range.gains}},
+                           {"length", "um", LinearLength{2.0, 3, range.nominal, range.gains}}}};
+  const LinearEngine engine(population.set, model);
+  constexpr std::uint32_t kDraws = 333;
+  const auto values = engine.evaluate(random_scheme(population.set), 1, 0, kDraws);
+  for (std::uint32_t d = 0; d < kDraws; ++d) {
+    const Eigen::VectorXd w = population.weights(1, d);
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_NEAR(values[c * kDraws + d], value_of(model.characteristics[c], w), 1e-12)
+          << model.characteristics[c].name << d;
     }
   }
 }

@@ -1,4 +1,4 @@
-#include "studies/linear_model.hpp"
+#include "studies/engine/linear_model.hpp"
 
 #include <gtest/gtest.h>
 

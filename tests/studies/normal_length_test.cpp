@@ -1,4 +1,4 @@
-#include "studies/normal_length.hpp"
+#include "studies/statistics/normal_length.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "core/random.hpp"
-#include "studies/law.hpp"
+#include "studies/laws/law.hpp"
 
 namespace frustum::studies {
 namespace {

@@ -1,9 +1,9 @@
-#include "studies/order_statistics.hpp"
+#include "studies/statistics/order_statistics.hpp"
 
 #include <cmath>
 
 #include "core/random.hpp"
-#include "studies/summary.hpp"
+#include "studies/statistics/summary.hpp"
 #include "tests/law_count.hpp"
 #include "tests/studies/populations.hpp"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "kinematics/errors/error_table.hpp"
-#include "studies/tip_ring.hpp"
+#include "studies/engine/tip_ring.hpp"
 
 namespace frustum::studies {
 

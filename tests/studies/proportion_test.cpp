@@ -1,4 +1,4 @@
-#include "studies/proportion.hpp"
+#include "studies/statistics/proportion.hpp"
 
 #include <cmath>
 

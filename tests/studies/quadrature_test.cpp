@@ -1,4 +1,4 @@
-#include "studies/quadrature.hpp"
+#include "studies/laws/quadrature.hpp"
 
 #include <gtest/gtest.h>
 

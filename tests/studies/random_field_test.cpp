@@ -1,4 +1,4 @@
-#include "studies/random_field.hpp"
+#include "studies/laws/random_field.hpp"
 
 #include <cmath>
 

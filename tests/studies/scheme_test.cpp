@@ -1,12 +1,12 @@
-#include "studies/scheme.hpp"
+#include "studies/laws/scheme.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "core/random.hpp"
-#include "studies/linear_engine.hpp"
-#include "studies/summary.hpp"
+#include "studies/engine/linear_engine.hpp"
+#include "studies/statistics/summary.hpp"
 #include "tests/law_count.hpp"
 #include "tests/studies/populations.hpp"
 

@@ -1,4 +1,4 @@
-#include "studies/setup_map.hpp"
+#include "studies/answers/setup_map.hpp"
 
 #include "tests/law_count.hpp"
 #include "tests/studies/populations.hpp"

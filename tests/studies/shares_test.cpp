@@ -1,11 +1,11 @@
-#include "studies/shares.hpp"
+#include "studies/answers/shares.hpp"
 
 #include <cmath>
 #include <numbers>
 
 #include "core/random.hpp"
-#include "studies/law.hpp"
-#include "studies/linear_engine.hpp"
+#include "studies/engine/linear_engine.hpp"
+#include "studies/laws/law.hpp"
 #include "tests/law_count.hpp"
 #include "tests/studies/populations.hpp"
 

@@ -1,9 +1,9 @@
-#include "studies/summary.hpp"
+#include "studies/statistics/summary.hpp"
 
 #include <cmath>
 
 #include "core/random.hpp"
-#include "studies/linear_engine.hpp"
+#include "studies/engine/linear_engine.hpp"
 #include "tests/law_count.hpp"
 #include "tests/studies/populations.hpp"
 

@@ -1,4 +1,4 @@
-#include "studies/tip_ring.hpp"
+#include "studies/engine/tip_ring.hpp"
 
 #include "tests/studies/populations.hpp"
 

@@ -1,4 +1,4 @@
-#include "studies/turn.hpp"
+#include "studies/laws/turn.hpp"
 
 #include <gtest/gtest.h>
 
