@@ -234,22 +234,47 @@ std::vector<Passage> suspects(const Workpiece& workpiece, std::vector<Passage> n
   return near;
 }
 
-void examine(const Workpiece& workpiece, const Timetable& table, const Passages& passages,
-             const Ray& ray, RaySpan span, Hits& hits) {
-  std::optional<std::vector<RemovedPiece>> known;
-  const auto pieces = [&]() -> const std::vector<RemovedPiece>& {
-    if (!known) known = history(workpiece, table, ray, span);
-    return *known;
-  };
-  for (const Passage& passage : suspects(workpiece, passages.near(ray, span, pieces), ray)) {
-    const IntervalSet covered = passages.core_along(passage, ray);
-    if (covered.empty()) continue;
-    const std::uint32_t block = passages.block_index(passage);
+// What stands along a ray after blocks: of many it is divided from the ray's history, of few it is
+// asked for.
+class Standing {
+ public:
+  Standing(const Workpiece& workpiece, const Timetable& table, const Ray& ray, RaySpan span)
+      : workpiece_(workpiece), table_(table), ray_(ray), span_(span) {}
+
+  [[nodiscard]] const std::vector<RemovedPiece>& pieces() {
+    if (!known_) known_ = history(workpiece_, table_, ray_, span_);
+    return *known_;
+  }
+  [[nodiscard]] IntervalSet after(std::uint32_t block) {
+    constexpr int kFew = 8;
+    if (!known_ && ++asked_ <= kFew) {
+      return workpiece_.material_along(ray_, span_, table_.first_segment(block + 1));
+    }
     std::vector<Interval> standing;
     for (const RemovedPiece& r : pieces()) {
       if (r.block > block) standing.push_back(r.piece);
     }
-    const IntervalSet met = IntervalSet(std::move(standing)).intersected(covered);
+    return IntervalSet(std::move(standing));
+  }
+
+ private:
+  const Workpiece& workpiece_;
+  const Timetable& table_;
+  const Ray& ray_;
+  RaySpan span_;
+  std::optional<std::vector<RemovedPiece>> known_{};
+  int asked_ = 0;
+};
+
+void examine(const Workpiece& workpiece, const Timetable& table, const Passages& passages,
+             const Ray& ray, RaySpan span, Hits& hits) {
+  Standing standing(workpiece, table, ray, span);
+  const auto pieces = [&]() -> const std::vector<RemovedPiece>& { return standing.pieces(); };
+  for (const Passage& passage : suspects(workpiece, passages.near(ray, span, pieces), ray)) {
+    const IntervalSet covered = passages.core_along(passage, ray);
+    if (covered.empty()) continue;
+    const std::uint32_t block = passages.block_index(passage);
+    const IntervalSet met = standing.after(block).intersected(covered);
     for (const Interval& piece : met.intervals()) {
       keep_longer(hits, {block, passage.body->body},
                   {piece.length(), ray.at(0.5 * (piece.lo + piece.hi))});
@@ -364,7 +389,7 @@ Collision described(const ToolPath& path, const Stretch& stretch) {
 // deepest of their stretch: what the whole stretch reports is told by others. A body that is in the
 // material for thousands of blocks would be followed along each of many rays.
 Hits told_by_few(const std::array<Hits, 3>& families, const ToolPath& path) {
-  constexpr std::size_t kDeepest = 16;
+  constexpr std::size_t kDeepest = 4;
   Hits told;
   for (Stretch& stretch : stretches_of(thinnest(families), path)) {
     std::ranges::stable_sort(stretch.hits, std::greater(),
