@@ -34,7 +34,7 @@ Result<BestFit> laid_into(const std::vector<ProbedSurface>& surfaces, const Pose
   for (const ProbedSurface& s : surfaces) {
     for (const Vec3& p : s.points) all.push_back({started_from_measured.point(p), &s.planned});
   }
-  auto fit = best_fit(all);
+  auto fit = best_fit(all, {}, Telling::steady);
   if (fit) fit->measured_from_planned = start * fit->measured_from_planned;
   return fit;
 }

@@ -136,7 +136,7 @@ std::vector<PlanarProfile> generatrices(const FittedFeature& feature) {
     first = i;
   }
   for (std::size_t i = 0; i < first; ++i) placed[i].angle += 2.0 * std::numbers::pi;
-  std::ranges::rotate(placed, placed.begin() + static_cast<std::ptrdiff_t>(first));
+  std::rotate(placed.begin(), placed.begin() + static_cast<std::ptrdiff_t>(first), placed.end());
   const double least = 0.5 * reach_of(whole);
   std::vector<PlanarProfile> all = parted_by_angle(placed, 0.5 * kRadPerDeg, least);
   std::erase_if(all, [&](const PlanarProfile& p) { return !goes_along(p, least); });

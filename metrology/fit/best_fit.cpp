@@ -23,6 +23,11 @@ constexpr double kUntold = 1e-10;
 // circle of a ball slides along its axis if it is small, but that says nothing of how the part
 // lies, and may have its minimum degrees away.
 constexpr double kLargestBend = 0.5;
+// Steadily told is a direction of which the points say at least half as much, in the same sense,
+// when the part lies 2 deg otherwise: what an oblique section says of its tilt is nothing where it
+// is square, and the contrary beyond.
+constexpr double kSteadyTurn = 2.0 * kRadPerDeg;
+constexpr double kSteadyShare = 0.5;
 
 // Locked rotations are about the origin: only there do they leave shifts alone.
 Vec3 centre_of(std::span<const PointOnElement> points, const std::array<bool, 6>& locked) {
@@ -102,8 +107,33 @@ Normal normal_of(const Task& task, const Pose& planned_from_measured) {
   return n;
 }
 
+bool is_steady(const Task& task, const Pose& planned_from_measured, const Vec6& way) {
+  // How far each point goes along its normal, by the way.
+  const auto says = [&](std::size_t i, const Pose& pose) {
+    const Vec3 x = pose.point(task.points[i]);
+    const Vec3 normal = outward_normal(task.elements[task.element_of[i]], x);
+    return normal.dot(way.head<3>() + way.tail<3>().cross(x) / task.size);
+  };
+  std::vector<double> own(task.points.size());
+  double here = 0.0;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    own[i] = says(i, planned_from_measured);
+    here += own[i] * own[i];
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double turn : {kSteadyTurn, -kSteadyTurn}) {
+      const Pose turned{rotation_about(Vec3::Unit(axis), turn), Vec3::Zero()};
+      const Pose moved = turned * planned_from_measured;
+      double there = 0.0;
+      for (std::size_t i = 0; i < own.size(); ++i) there += own[i] * says(i, moved);
+      if (!(there >= kSteadyShare * here)) return false;
+    }
+  }
+  return true;
+}
+
 // The directions in which the points say how they lie, at a pose.
-std::vector<Vec6> told_ways(const Task& task, const Pose& planned_from_measured) {
+std::vector<Vec6> told_ways(const Task& task, const Pose& planned_from_measured, Telling telling) {
   const Eigen::SelfAdjointEigenSolver<Mat6> eigen(normal_of(task, planned_from_measured).matrix);
   const double largest = eigen.eigenvalues().maxCoeff();
   std::vector<Vec6> told;
@@ -118,33 +148,36 @@ std::vector<Vec6> told_ways(const Task& task, const Pose& planned_from_measured)
       return -way.dot(normal_of(task, moved).right);
     };
     const double whole = (slope(h) - slope(-h)) / (2.0 * h);
-    if (std::abs(whole - curvature) <= kLargestBend * curvature) told.push_back(way);
+    if (!(std::abs(whole - curvature) <= kLargestBend * curvature)) continue;
+    if (telling == Telling::any || is_steady(task, planned_from_measured, way)) {
+      told.push_back(way);
+    }
   }
   return told;
 }
 
 // Those that need no such proof as planned.
-std::vector<Vec6> strong_ways(const Task& task) {
+std::vector<Vec6> strong_ways(const Task& task, Telling telling) {
   const Eigen::SelfAdjointEigenSolver<Mat6> eigen(normal_of(task, {}).matrix);
   constexpr double kStrong = 1e-3;  // of the largest: a lever arm of 3 % of the part
   std::vector<Vec6> strong;
   for (Eigen::Index k = 0; k < 6; ++k) {
-    if (eigen.eigenvalues()[k] > kStrong * eigen.eigenvalues().maxCoeff()) {
-      strong.emplace_back(eigen.eigenvectors().col(k));
-    }
+    if (!(eigen.eigenvalues()[k] > kStrong * eigen.eigenvalues().maxCoeff())) continue;
+    const Vec6 way = eigen.eigenvectors().col(k);
+    if (telling == Telling::any || is_steady(task, {}, way)) strong.push_back(way);
   }
   return strong;
 }
 
 // The largest change of a deviation by a motion along each free direction that the points, laid
 // into the planned geometry, do not tell.
-double bend_of_untold(const Task& laid) {
+double bend_of_untold(const Task& laid, Telling telling) {
   constexpr double kTurn = kRadPerDeg;
   const auto without = [](Vec6 v, const std::vector<Vec6>& others) {
     for (const Vec6& other : others) v -= other.dot(v) * other;
     return v;
   };
-  const std::vector<Vec6> told = told_ways(laid, {});
+  const std::vector<Vec6> told = told_ways(laid, {}, telling);
   std::vector<Vec6> untold;
   for (Eigen::Index k = 0; k < 6; ++k) {
     if (laid.locked[static_cast<std::size_t>(k)]) continue;
@@ -187,8 +220,8 @@ std::optional<Pose> settled(const Task& task, const std::vector<Vec6>& ways, Pos
 
 }  // namespace
 
-Result<BestFit> best_fit(std::span<const PointOnElement> points,
-                         const std::array<bool, 6>& locked) {
+Result<BestFit> best_fit(std::span<const PointOnElement> points, const std::array<bool, 6>& locked,
+                         Telling telling) {
   if (points.empty()) return error("too-few-points"_id, "a best fit without points");
   const Vec3 centre = centre_of(points, locked);
   const Task task = task_of(points, centre, locked);
@@ -196,14 +229,14 @@ Result<BestFit> best_fit(std::span<const PointOnElement> points,
   // Far from the points the bend of the surfaces hides what they say: the directions are chosen
   // again where those chosen before led, until there is nothing to choose.
   Pose pose;
-  std::vector<Vec6> ways = strong_ways(task);
+  std::vector<Vec6> ways = strong_ways(task, telling);
   bool has_settled = false;
   constexpr int kChoices = 4;
   for (int choice = 0; choice < kChoices; ++choice) {
     const std::optional<Pose> found = settled(task, ways, pose);
     has_settled = found.has_value();
     if (found) pose = *found;
-    std::vector<Vec6> again = told_ways(task, pose);
+    std::vector<Vec6> again = told_ways(task, pose, telling);
     if (has_settled && again.size() == ways.size() && choice > 0) break;
     ways = std::move(again);
   }
@@ -223,7 +256,7 @@ Result<BestFit> best_fit(std::span<const PointOnElement> points,
   std::vector<PointOnElement> laid(points.begin(), points.end());
   const Pose planned_from_measured = found.measured_from_planned.inverse();
   for (PointOnElement& p : laid) p.point = planned_from_measured.point(p.point);
-  found.bend_of_untold = bend_of_untold(task_of(laid, centre_of(laid, locked), locked));
+  found.bend_of_untold = bend_of_untold(task_of(laid, centre_of(laid, locked), locked), telling);
   return found;
 }
 

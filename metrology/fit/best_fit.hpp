@@ -36,8 +36,13 @@ struct BestFit {
   // does not matter then.
   double bend_of_untold = 0.0;
 };
+// What counts as told: all that the points say where they are, or what they would still say if the
+// part lay 2 deg otherwise.
+enum class Telling { any, steady };
+
 // `locked`: degrees to leave alone, in the same order.
 [[nodiscard]] Result<BestFit> best_fit(std::span<const PointOnElement> points,
-                                       const std::array<bool, 6>& locked = {});
+                                       const std::array<bool, 6>& locked = {},
+                                       Telling telling = Telling::any);
 
 }  // namespace frustum::metrology

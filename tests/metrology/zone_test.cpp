@@ -307,6 +307,26 @@ TEST(Profile, WithoutDatumsOfSectionsForgivesWhereEachIs) {
   EXPECT_GT(value_of(c, features), 0.0002);
 }
 
+// Two lobes are two lobes however the part lies: no section may tilt until they are gone.
+TEST(Profile, WithoutDatumsKeepsLobesOfPartsThatAreAskew) {
+  const std::vector<PlannedFeature> parts{measured::cylinder("C", {3, 0, 5}, Vec3::UnitZ(), 20.0),
+                                          taper("K", {3, 0, 5}, 20.0)};
+  for (const PlannedFeature& part : parts) {
+    const auto lobes = [&part](const Vec3& p) {
+      return 0.002 * std::cos(2.0 * std::atan2(p.y() - part.point.y(), p.x() - part.point.x()));
+    };
+    for (const double degrees : {0.0, 0.1, 0.5, 1.0, 2.0}) {
+      const Pose lies = turned(Vec3(0.6, 0.8, 0), degrees * kRadPerDeg);
+      const std::vector<FittedFeature> features{feature(part, lies, lobes)};
+      for (const K kind : {K::line_profile, K::surface_profile}) {
+        PlannedCharacteristic c = measured::characteristic(kind, {part.name});
+        c.floating = true;
+        EXPECT_NEAR(value_of(c, features), 0.004, 0.0001) << part.name << " " << degrees;
+      }
+    }
+  }
+}
+
 TEST(Profile, WithoutDatumsOfOneSectionIsRefusedForItMayBeAskew) {
   PlannedFeature shaft = measured::cylinder("shaft", {0, 0, 0}, Vec3::UnitZ(), 14.4, {5.0});
   shaft.kind = FeatureKind::circle;
