@@ -90,6 +90,9 @@ class PieceModel final : public StudyModel {
   }
 
   std::string about_full() const override {
+    if (study_.keep_points && study_.measurement.noise) {
+      return "every draw is a whole trial: its single points have the noise of the CMM";
+    }
     if (population() != nullptr) return {};
     return "every draw is a whole trial: " + against_following_;
   }

@@ -389,7 +389,7 @@ Collision described(const ToolPath& path, const Stretch& stretch) {
 // deepest of their stretch: what the whole stretch reports is told by others. A body that is in the
 // material for thousands of blocks would be followed along each of many rays.
 Hits told_by_few(const std::array<Hits, 3>& families, const ToolPath& path) {
-  constexpr std::size_t kDeepest = 4;
+  constexpr std::size_t kDeepest = 32;
   Hits told;
   for (Stretch& stretch : stretches_of(thinnest(families), path)) {
     std::ranges::stable_sort(stretch.hits, std::greater(),
