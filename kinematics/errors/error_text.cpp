@@ -45,10 +45,9 @@ bool is_keyword(std::string_view word) {
                      [&](const Keyword& k) { return k.word == word; });
 }
 
-// "; did you mean uniform?" of a misspelt law, and where words of a term stand also of its kind.
+// "; did you mean uniform?" of a misspelt law, or another word that may stand there.
 std::string meant_law(std::string_view word, std::vector<std::string> candidates = {}) {
-  for (const char* law : {"uniform", "normal", "triangular", "nominal"})
-    candidates.emplace_back(law);
+  candidates.insert(candidates.end(), {"uniform", "normal", "triangular", "nominal"});
   const auto near = nearest_word(word, candidates);
   return near ? fmt::format("; did you mean {}?", *near) : std::string();
 }
@@ -248,11 +247,10 @@ class WordReader {
     if (known == names_.end()) {
       std::vector<std::string> others;
       for (const auto& [name, distribution] : names_) others.push_back(name);
-      for (const Keyword& keyword : kKinds) {
-        if (keyword.kind < ErrorShape::Kind::table) others.emplace_back(keyword.word);
-      }
-      return fail(fmt::format("'{}' is neither a number with a unit nor a drawn quantity{}", text,
-                              meant_law(text, std::move(others))));
+      for (const Keyword& k : kKinds)
+        if (k.kind < ErrorShape::Kind::table) others.emplace_back(k.word);
+      return fail(fmt::format("'{}' is neither a number with a unit nor a drawn quantity", text) +
+                  meant_law(text, std::move(others)));
     }
     drawn.distribution = known->second;
     if (sign != std::string_view::npos) {
