@@ -296,7 +296,7 @@ void add_study(Command& program) {
   command.footer(
       "Exit code 1: fewer parts conform than at_least says, or a stop rule is not reached; 130: "
       "interrupted, to be resumed.\n"
-      "Example: frustum study examples/bossoni-study/proposed.toml --samples 1000 --out study");
+      "Example: frustum study examples/bossoni-study/proposed-r.toml --samples 1000 --out study");
   command.computes([o] { return run_study(*o); });
 }
 

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <mutex>
 #include <optional>
 
 #include "app/study/linear_piece.hpp"
+#include "core/toml_document.hpp"
 #include "core/units.hpp"
 #include "kinematics/path/approach_direction.hpp"
 #include "metrology/cmm.hpp"
@@ -19,6 +21,7 @@
 namespace frustum::app {
 namespace {
 
+namespace fs = std::filesystem;
 using kinematics::GeometricErrors;
 
 std::string joined(const Diagnostics& problems) {
@@ -268,6 +271,27 @@ GeometricErrors errors_of_middle(const studies::FactorSet& factors) {
   return errors;
 }
 
+// The same problem at the limit that a study file or a plan states; nothing where it states none.
+std::optional<Diagnostic> at_limit(const fs::path& file, std::string_view list,
+                                   const std::string& name, const Diagnostic& problem) {
+  const auto document = TomlDocument::load(file);
+  if (!document) return std::nullopt;
+  const TomlTable& root = document->root();
+  if (list == "limits") {
+    const auto limits = root.table_if(list);
+    if (!limits || !limits->has(name)) return std::nullopt;
+    limits->fail(name, problem);
+  } else {
+    for (const TomlTable& planned : root.tables(list)) {
+      if (planned.text_or("name", "") == name) planned.fail("tolerance", problem);
+    }
+  }
+  for (Diagnostic& noted : document->finish()) {
+    if (noted.id == problem.id) return std::move(noted);
+  }
+  return std::nullopt;
+}
+
 // The nominal machine must make a good part, or the study says nothing about machines.
 Diagnostics problems_of_nominal(const StudyFile& study, const trials::Trial& trial) {
   Diagnostics problems;
@@ -279,11 +303,14 @@ Diagnostics problems_of_nominal(const StudyFile& study, const trials::Trial& tri
   for (std::size_t i = 0; i < values.size(); ++i) {
     const StudyCharacteristic& c = study.characteristics[i];
     if (c.conforms(values[i])) continue;
-    problems.push_back(
+    const Diagnostic fails =
         error("nominal-fails"_id,
               fmt::format("the machine without errors makes {} = {:.4g} {}, limit {:g} {}", c.name,
                           values[i], c.unit(), *c.limit, c.unit()),
-              "check program, plan and limits: frustum run shows what is wrong"));
+              "check program, plan and limits: frustum run shows what is wrong");
+    auto placed = at_limit(study.file, "limits", c.name, fails);
+    if (!placed) placed = at_limit(study.job->plan_file, "characteristic", c.name, fails);
+    problems.push_back(placed.value_or(fails));
   }
   return problems;
 }

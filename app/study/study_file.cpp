@@ -167,13 +167,19 @@ void read_study_errors(const std::optional<TomlTable>& table, const StudyWords& 
   if (table) {
     list = kinematics::read_errors(*table, find_error_file);
     for (const kinematics::ErrorEntry& e : list.entries) {
-      if (!table->has(e.name)) continue;
+      const Diagnostics unfit = kinematics::unfit_shapes(study.machine(), e);
+      if (!table->has(e.name)) {
+        append_all(problems, unfit);
+        continue;
+      }
       const auto unknown = kinematics::unknown_error(study.machine(), e.name);
-      if (unknown) table->fail(e.name, unknown->id, unknown->message, unknown->hint);
+      if (unknown) table->fail(e.name, *unknown);
+      for (const Diagnostic& problem : unfit) table->fail(e.name, problem);
     }
   } else if (study.job) {
     list.entries = study.job->errors;
   }
+  study.errors = list.entries;  // what else is wrong is told beside a bad word of the command line
   auto gathered = gather_errors(std::move(list), words.errors, std::nullopt, study.machine());
   if (gathered) {
     study.errors = *std::move(gathered);

@@ -84,9 +84,10 @@ void add_characteristic(StudyPage& page, const StudyFile& study, const StudyMode
   if (low == nullptr || q1 == nullptr || median == nullptr || q3 == nullptr || high == nullptr) {
     return;
   }
-  shown.box = {c.name, c.summary.min, q1->value, median->value, q3->value, c.summary.max, c.limit};
+  shown.box = {c.name,    c.summary.min, q1->value,   median->value,
+               q3->value, c.summary.max, limits_of(c)};
   shown.row = {number(low->value), number(median->value) + interval(median->ci95),
-               number(high->value), c.limit ? number(*c.limit) : "",
+               number(high->value), c.limit ? (c.both_sides ? "±" : "") + number(*c.limit) : "",
                c.conform ? proportion(*c.conform) : ""};
   shown.distribution = distribution_of(values, c);
   const double u = study.measurement.u && !study.characteristics[index].angular

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "core/spelling.hpp"
+#include "studies/laws/correlation.hpp"
 
 namespace frustum::app {
 namespace {
@@ -43,7 +45,39 @@ void read_correlated(const TomlTable& table, StudyFile& study) {
       group.correlation(i, k) = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)];
     }
   }
+  if (const auto lower = studies::cholesky_of(group.correlation, n); !lower) {
+    table.fail("correlation", lower.error().front());
+  }
   study.correlated.push_back(std::move(group));
+}
+
+// Each name once in all groups, and of an error that can be a member; an error whose law could not
+// be read has been told of.
+void check_members(const TomlTable& root, const StudyFile& study) {
+  const auto errors = root.table_if("errors");
+  std::set<std::string> taken;
+  for (const TomlTable& group : root.tables("correlated")) {
+    std::optional<Diagnostic> wrong;  // a key has one message
+    const auto note = [&](const Diagnostic& problem) {
+      if (wrong) {
+        wrong->message += "; " + problem.message;
+      } else {
+        wrong = problem;
+      }
+    };
+    for (const std::string& name : group.texts_or("names", {})) {
+      if (!taken.insert(name).second) {
+        note(error("correlated-twice"_id, fmt::format("{} is named twice", name),
+                   "an error is in one correlated group, once"));
+        continue;
+      }
+      const bool was_read = std::ranges::any_of(
+          study.errors, [&](const kinematics::ErrorEntry& e) { return e.name == name; });
+      if (!was_read && errors && errors->has(name)) continue;
+      if (const auto problem = studies::uncorrelatable(study.errors, name)) note(*problem);
+    }
+    if (wrong) group.fail("names", *wrong);
+  }
 }
 
 void read_limits(const TomlTable& table, StudyFile& study) {
@@ -185,6 +219,7 @@ void read_map(const TomlTable& table, StudyFile& study) {
 void read_study_tables(const TomlTable& root, StudyFile& study) {
   if (const auto table = root.table_if("tolerances")) read_tolerances(*table, study);
   for (const TomlTable& table : root.tables("correlated")) read_correlated(table, study);
+  check_members(root, study);
   if (const auto table = root.table_if("limits")) read_limits(*table, study);
   if (const auto table = root.table_if("measurement")) read_measurement(*table, study);
   if (const auto table = root.table_if("stop")) read_stop(*table, study);

@@ -127,10 +127,6 @@ std::optional<Diagnostic> check_shape(const Machine& machine, const ErrorEntry& 
         fmt::format("a position of {} is {}", to_char(name.axis), a_length_or_an_angle(along)),
         along == UnitKind::angle ? "for example 90 deg" : "for example 100 mm");
   }
-  if (shape.kind == ErrorShape::Kind::field) {
-    return problem("a random field is drawn by a study",
-                   "frustum study draws it; write a harmonic or a table here");
-  }
   if (name.location && shape.kind != ErrorShape::Kind::constant) {
     return problem("a location error is a constant", "component errors such as EXX take shapes");
   }
@@ -146,6 +142,14 @@ std::optional<Diagnostic> check_shape(const Machine& machine, const ErrorEntry& 
                    "the error depends on its position");
   }
   return std::nullopt;
+}
+
+std::optional<Diagnostic> undrawn_field(const ErrorEntry& entry, const ErrorShape& shape) {
+  if (shape.kind != ErrorShape::Kind::field) return std::nullopt;
+  return error(
+      "error-kind"_id,
+      fmt::format("error {} = {}: a random field is drawn by a study", entry.name, entry.written),
+      "frustum study draws it; write a harmonic or a table here");
 }
 
 // Names the file that an entry is in.
@@ -194,6 +198,10 @@ class Resolver {
     std::optional<double> settle;
     for (const ErrorShape& written : entry.terms) {
       if (const auto problem = check_shape(machine_, entry, written, named->error)) {
+        refuse(entry, *problem);
+        continue;
+      }
+      if (const auto problem = undrawn_field(entry, written)) {
         refuse(entry, *problem);
         continue;
       }
@@ -311,6 +319,19 @@ std::optional<Diagnostic> unknown_error(const Machine& machine, const std::strin
                  lists);
   }
   return std::nullopt;
+}
+
+Diagnostics unfit_shapes(const Machine& machine, const ErrorEntry& entry) {
+  const auto alias = machine.aliases().find(entry.name);
+  const auto name = alias != machine.aliases().end() ? std::optional(alias->second.error)
+                                                     : ErrorName::parse(entry.name);
+  if (!name || machine.joint(name->axis) == nullptr) return {};  // which unknown_error() tells
+  Diagnostics problems;
+  for (const ErrorShape& shape : entry.terms) {
+    const auto problem = check_shape(machine, entry, shape, *name);
+    if (problem) problems.push_back(in_file_of(entry, *problem));
+  }
+  return problems;
 }
 
 Result<GeometricErrors> resolve(const Machine& machine, std::span<const ErrorEntry> entries,

@@ -26,6 +26,10 @@ using AxisSpans = std::map<AxisLetter, AxisRange>;
 [[nodiscard]] std::optional<Diagnostic> unknown_error(const Machine& machine,
                                                       const std::string& name);
 
+// What of an entry's shapes does not fit its error: units of amounts and positions, a shape of a
+// location error, an axis that the machine has not. Amounts may still be distributions.
+[[nodiscard]] Diagnostics unfit_shapes(const Machine& machine, const ErrorEntry& entry);
+
 // Later entries replace earlier ones of the same error. Amounts that are drawn from distributions
 // must have been drawn before (kinematics/errors/error_draw.hpp).
 [[nodiscard]] Result<GeometricErrors> resolve(const Machine& machine,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/spelling.hpp"
 #include "kinematics/errors/error_shape.hpp"
 #include "kinematics/errors/harmonic_order.hpp"
 
@@ -42,6 +43,13 @@ bool is_keyword(std::string_view word) {
   return std::find(kOptions.begin(), kOptions.end(), word) != kOptions.end() ||
          std::any_of(kKinds.begin(), kKinds.end(),
                      [&](const Keyword& k) { return k.word == word; });
+}
+
+// "; did you mean uniform?" of a misspelt law, or another word that may stand there.
+std::string meant_law(std::string_view word, std::vector<std::string> candidates = {}) {
+  candidates.insert(candidates.end(), {"uniform", "normal", "triangular", "nominal"});
+  const auto near = nearest_word(word, candidates);
+  return near ? fmt::format("; did you mean {}?", *near) : std::string();
 }
 
 bool is_letter(char c) {
@@ -128,7 +136,7 @@ class WordReader {
       return d;
     }
     if (!take("normal")) {
-      fail(fmt::format("'{}' is not a distribution", peek()));
+      fail(fmt::format("'{}' is not a distribution{}", peek(), meant_law(peek())));
       return d;
     }
     d.kind = Distribution::Kind::normal;
@@ -237,7 +245,12 @@ class WordReader {
     drawn.name = std::string(text.substr(0, sign));
     const auto known = names_.find(drawn.name);
     if (known == names_.end()) {
-      return fail(fmt::format("'{}' is neither a number with a unit nor a drawn quantity", text));
+      std::vector<std::string> others;
+      for (const auto& [name, distribution] : names_) others.push_back(name);
+      for (const Keyword& k : kKinds)
+        if (k.kind < ErrorShape::Kind::table) others.emplace_back(k.word);
+      return fail(fmt::format("'{}' is neither a number with a unit nor a drawn quantity", text) +
+                  meant_law(text, std::move(others)));
     }
     drawn.distribution = known->second;
     if (sign != std::string_view::npos) {

@@ -28,8 +28,8 @@ void draw_box(SvgDrawing& drawing, const PlotFrame& frame, const PlotScale& on_x
   }
   drawing.rectangle({x(row.low), y - kHalf}, {x(row.high), y + kHalf}, "box s1");
   drawing.line({x(row.middle), y - kHalf}, {x(row.middle), y + kHalf}, "middle s1");
-  if (row.limit) {
-    drawing.line({x(*row.limit), y - 18.0}, {x(*row.limit), y + 18.0}, "limit");
+  for (const double limit : row.limits) {
+    drawing.line({x(limit), y - 18.0}, {x(limit), y + 18.0}, "limit");
   }
   drawing.text({frame.left - 10.0, y + 4.0}, row.label, SvgAnchor::end);
 }
@@ -42,7 +42,10 @@ std::string box_figure(const std::string& title, const std::string& scale_title,
   for (const BoxRow& row : rows) {
     for (const double value : {row.min, row.max}) range.include(value);
     // A limit far beyond all values would leave nothing of them.
-    if (row.limit && *row.limit < row.max + 2.0 * (row.max - row.min)) range.include(*row.limit);
+    const double far = 2.0 * (row.max - row.min);
+    for (const double limit : row.limits) {
+      if (limit > row.min - far && limit < row.max + far) range.include(limit);
+    }
   }
   const PlotScale on_x{range.widened(0.03, 1e-3), scale_title, 8};
   constexpr double kRow = 46.0;
@@ -53,7 +56,8 @@ std::string box_figure(const std::string& title, const std::string& scale_title,
   double y = frame.top + 0.5 * kRow;
   for (const BoxRow& row : rows) {
     BoxRow shown = row;
-    if (shown.limit && *shown.limit > on_x.range.high) shown.limit.reset();
+    std::erase_if(shown.limits,
+                  [&](double limit) { return limit < on_x.range.low || limit > on_x.range.high; });
     draw_box(drawing, frame, on_x, shown, y);
     y += kRow;
   }
@@ -93,7 +97,12 @@ std::string distribution_figure(const std::string& title, const std::string& sca
   for (const double limit : limits) {
     const double x = frame.at(limit, 0.0, on_x, on_y).x;
     drawing.line({x, frame.top}, {x, frame.bottom}, "limit");
-    drawing.text({x - 6.0, frame.top + 14.0}, "limit", SvgAnchor::end, "limit-text");
+    // Where the line is not: below it at the large values, above it at the small ones.
+    const auto above = std::upper_bound(line.value.begin(), line.value.end(), limit);
+    const bool is_low = above != line.value.begin() &&
+                        line.p[static_cast<std::size_t>(above - line.value.begin()) - 1] > 0.5;
+    const double y = is_low ? frame.bottom - 8.0 : frame.top + 14.0;
+    drawing.text({x - 6.0, y}, "limit", SvgAnchor::end, "limit-text");
   }
   return framed(title, drawing);
 }

@@ -4,7 +4,6 @@
 // Units: those of the values, which the titles name. Errors: none; nothing is drawn of no values.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,7 +13,7 @@ namespace frustum::report {
 struct BoxRow {
   std::string label{};
   double min = 0.0, low = 0.0, middle = 0.0, high = 0.0, max = 0.0;  // low, high: quartiles
-  std::optional<double> limit{};
+  std::vector<double> limits{};  // one for a size, two for deviations of either sign
 };
 
 // A <figure> of boxes along one scale.

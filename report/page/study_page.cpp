@@ -69,7 +69,7 @@ std::string box_section(const StudyPage& page) {
     by_unit[c.unit].push_back(c.box);
     csv += fmt::format("{},{},{},{},{},{},{},{}\n", csv_field(c.name), c.unit, c.box.min, c.box.low,
                        c.box.middle, c.box.high, c.box.max,
-                       c.box.limit ? fmt::format("{}", *c.box.limit) : "");
+                       c.box.limits.empty() ? "" : fmt::format("{}", c.box.limits.back()));
   }
   std::string content;
   for (const auto& [unit, rows] : by_unit) {
@@ -80,7 +80,8 @@ std::string box_section(const StudyPage& page) {
   content +=
       "<p class=\"note\">Each box holds the middle half of the machines, its bar is the median; "
       "the "
-      "whiskers reach the smallest and the largest value. Dashed: the limit, where it is near.</p>";
+      "whiskers reach the smallest and the largest value. Dashed: the limits, where they are "
+      "near.</p>";
   return section("boxes", "Box plots", content);
 }
 
@@ -104,15 +105,31 @@ std::string distribution_section(const StudyPage& page) {
 }
 
 std::string risk_section(const StudyPage& page) {
-  std::string content;
+  // What is rarer would be an empty picture.
+  constexpr double kShownRisk = 1e-4;
+  const auto is_shown = [](const RiskCurve& curve) {
+    const auto counts = [](double risk) { return risk > kShownRisk; };
+    return std::ranges::any_of(curve.consumer, counts) ||
+           std::ranges::any_of(curve.producer, counts);
+  };
+  std::string content, without;
   for (const StudyPageCharacteristic& c : page.characteristics) {
     if (!c.risk) continue;
+    if (!is_shown(*c.risk)) {
+      without += (without.empty() ? "" : ", ") + html_text(c.name);
+      continue;
+    }
     content += risk_figure(c.name, *c.risk);
     std::string csv = "guard_U,consumer,producer\n";
     for (std::size_t i = 0; i < c.risk->guard.size(); ++i) {
       csv += fmt::format("{},{},{}\n", c.risk->guard[i], c.risk->consumer[i], c.risk->producer[i]);
     }
     content += csv_link(file_name(c.name) + ".risk.csv", csv);
+  }
+  if (!without.empty()) {
+    content += fmt::format(
+        "<p class=\"note\">Both risks are below {:g} with any of these guard bands: {}.</p>\n",
+        kShownRisk, without);
   }
   if (content.empty()) return {};
   return section("risks", "What a guard band costs", content);

@@ -16,7 +16,7 @@ constexpr double kSameCoefficient = 1e-9;
 constexpr double kSmallestEigenvalue = 1e-12;
 
 Diagnostic no_correlation(const std::string& what, const char* hint) {
-  return error("correlation-matrix"_id, "[[correlated]]: the correlation " + what, hint);
+  return error("correlation-matrix"_id, "the correlation " + what, hint);
 }
 
 }  // namespace

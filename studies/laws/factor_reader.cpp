@@ -38,7 +38,29 @@ std::string shape_text(const ErrorShape& shape) {
 
 Amount one_of(UnitKind kind) { return {.value = 1.0, .kind = kind}; }
 
+bool is_correlatable(const ErrorEntry& entry) {
+  const auto is_factor = [](const ErrorShape& s) { return s.kind == Kind::field || has_drawn(s); };
+  const auto factor = std::ranges::find_if(entry.terms, is_factor);
+  if (factor == entry.terms.end() || std::ranges::count_if(entry.terms, is_factor) != 1)
+    return false;
+  const std::vector<kinematics::DrawnFactor>& drawn = factor->amount.drawn;
+  return factor->kind == Kind::constant && drawn.size() == 1 && drawn.front().name.empty();
+}
+
 }  // namespace
+
+std::optional<Diagnostic> uncorrelatable(std::span<const ErrorEntry> entries,
+                                         const std::string& name) {
+  std::vector<std::string> constants;
+  for (const ErrorEntry& entry : entries) {
+    if (!is_correlatable(entry)) continue;
+    if (entry.name == name) return std::nullopt;
+    constants.push_back(entry.name);
+  }
+  return error("correlated-name"_id,
+               fmt::format("{} is not a constant error with one drawn amount", name),
+               suggestion(name, constants));
+}
 
 FactorReader::FactorReader(const kinematics::Machine& machine, const FactorOptions& options)
     : machine_(machine), options_(options) {
@@ -251,30 +273,18 @@ void FactorReader::correlate() {
     FactorSet::Copula copula{.correlation = group.correlation, .cholesky = *std::move(factors)};
     for (const std::string& name : group.names) {
       if (!taken.insert(name).second) {
-        problems_.push_back(error("correlated-twice"_id,
-                                  fmt::format("[[correlated]]: {} is named twice", name),
+        problems_.push_back(error("correlated-twice"_id, fmt::format("{} is named twice", name),
                                   "an error is in one correlated group, once"));
+        continue;
+      }
+      if (const auto problem = uncorrelatable(set_.entries_, name)) {
+        problems_.push_back(*problem);
         continue;
       }
       const auto member = std::find_if(
           set_.factors_.begin(), set_.factors_.end(),
           [&](const Factor& f) { return f.entries.front() == name && f.shape == "constant"; });
-      const auto same = [&](const Factor& f) { return f.entries.front() == name; };
-      const bool is_alone =
-          std::count_if(set_.factors_.begin(), set_.factors_.end(), same) == 1 &&
-          member != set_.factors_.end() && member->variables.size() == 1 &&
-          set_.variables_[member->variables.front()].place.starts_with(name + "/");
-      if (!is_alone) {
-        std::vector<std::string> constants;
-        for (const Factor& f : set_.factors_) {
-          if (f.shape == "constant") constants.push_back(f.entries.front());
-        }
-        problems_.push_back(error(
-            "correlated-name"_id,
-            fmt::format("[[correlated]]: {} is not a constant error with one drawn amount", name),
-            suggestion(name, constants)));
-        continue;
-      }
+      if (member == set_.factors_.end()) continue;  // its column was refused
       copula.variables.push_back(member->variables.front());
     }
     set_.copulas_.push_back(std::move(copula));

@@ -50,6 +50,11 @@ struct CorrelatedGroup {
   Eigen::MatrixXd correlation{};
 };
 
+// Why an error cannot be a member of a correlated group: it is no constant with one drawn amount of
+// its own.
+[[nodiscard]] std::optional<Diagnostic> uncorrelatable(
+    std::span<const kinematics::ErrorEntry> entries, const std::string& name);
+
 struct FactorOptions {
   kinematics::ToleranceReading read_as = kinematics::ToleranceReading::uniform;
   std::vector<ScaleRule> scale{};  // of several that match a term the last holds

@@ -12,6 +12,7 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 
 class StudySystem : public CommandLine {
  protected:
@@ -293,6 +294,87 @@ TEST_F(StudySystem, RefusesWhatCannotBeDrawn) {
     EXPECT_EQ(bad.exit_code, 2) << c.more;
     EXPECT_THAT(bad.err, HasSubstr(c.words)) << c.more;
   }
+}
+
+TEST_F(StudySystem, RefusesAllBadLawsAndGroupsAtOnceEachAtItsLine) {
+  write("bad.toml", R"(target = "volumetric"
+machine = "iwf-bc"
+[errors]
+EX0C = "uniform -10um..10um"
+EY0C = "uniform -10um..10um"
+EA0B = "unifrom -10urad..10urad"
+EB0B = "uniform -10um..10um"
+EC0B = "normal 0urad sd -3urad"
+EXX = "liner 3um"
+EYX = "field 3urad correlation 40mm"
+[[correlated]]
+names = ["EX0C", "EY0C"]
+correlation = [[1, 1.2], [1.2, 1]]
+[[correlated]]
+names = ["EX0C", "EA0B"]
+correlation = [[1, 0.2], [0.2, 2]]
+[[correlated]]
+names = ["EY0D", "EYX"]
+correlation = [[1, 0.2], [0.3, 1]]
+)");
+  const Outcome bad = run("study bad.toml --error \"EX0C=noraml 0um sd 1um\"");
+  EXPECT_EQ(bad.exit_code, 2);
+  for (const char* words : {"bad.toml:6:1: error: errors.EA0B",
+                            "did you mean uniform?",
+                            "bad.toml:7:1",
+                            "expected an angle",
+                            "bad.toml:8:1",
+                            "above 0",
+                            "did you mean linear?",
+                            "bad.toml:10:1",
+                            "expected a length",
+                            "bad.toml:13:1",
+                            "its smallest eigenvalue is -0.2",
+                            "bad.toml:15:1",
+                            "EX0C is named twice",
+                            "bad.toml:16:1",
+                            "2 on its diagonal",
+                            "bad.toml:18:1",
+                            "EY0D is not a constant error",
+                            "EYX is not",
+                            "bad.toml:19:1",
+                            "is not symmetric",
+                            "did you mean normal?"}) {
+    EXPECT_THAT(bad.err, HasSubstr(words));
+  }
+  EXPECT_THAT(bad.err, Not(HasSubstr("EA0B is not a constant"))) << "its law could not be read";
+}
+
+TEST_F(StudySystem, RefusesMoreDrawnNumbersThanASobolSequenceHas) {
+  std::string study =
+      "target = \"volumetric\"\nmachine = \"iwf-bc\"\nscheme = \"sobol\"\n[errors]\n";
+  for (const char* error : {"EXX", "EYX", "EZX", "EXY", "EYY", "EZY", "EXZ", "EYZ", "EZZ"})
+    study += error + std::string(" = \"field 3um correlation 0.5mm over 0mm..300mm\"\n");
+  write("s.toml", study);
+  const Outcome many = run("study s.toml --samples 10");
+  EXPECT_EQ(many.exit_code, 2);
+  EXPECT_THAT(many.err, HasSubstr("drawn numbers, a Sobol sequence at most 3667"));
+}
+
+TEST_F(StudySystem, NamesTheLineOfTheLimitThatTheNominalMachineFails) {
+  write_cone();
+  write_cone_study("[limits]\n\"cone.equivalent_form\" = \"0.001 um\"\n");
+  const Outcome study = run("study study.toml --samples 2");
+  EXPECT_EQ(study.exit_code, 2);
+  EXPECT_THAT(study.err,
+              HasSubstr("study.toml:4:1: error: limits.cone.equivalent_form: the machine "
+                        "without errors makes"));
+  std::string plan = read(folder_ / "piece/cone.plan.toml");
+  const std::size_t at = plan.find("tolerance = \"100 um\"");
+  ASSERT_NE(at, std::string::npos) << plan;
+  plan.replace(at, 20, "tolerance = \"0.001 um\"");
+  write("piece/cone.plan.toml", plan);
+  const auto line =
+      1 + std::count(plan.begin(), plan.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+  write_cone_study("");
+  const Outcome planned = run("study study.toml --samples 2");
+  EXPECT_EQ(planned.exit_code, 2);
+  EXPECT_THAT(planned.err, HasSubstr("cone.plan.toml:" + std::to_string(line) + ":1: error: "));
 }
 
 TEST_F(StudySystem, AndIdentifyRefuseEachOthersFilesWithAHint) {

@@ -23,7 +23,7 @@ std::size_t count(const std::string& text, const std::string& part) {
 StudyPageCharacteristic form() {
   return {.name = "a<b",
           .unit = "um",
-          .box = {"a<b", 1.0, 2.0, 3.0, 4.0, 9.0, 6.0},
+          .box = {"a<b", 1.0, 2.0, 3.0, 4.0, 9.0, {6.0}},
           .distribution = {{1.0, 2.0, 3.0}, {0.25, 0.5, 1.0}, 0.1, {2.5}},
           .row = {"1", "3 (2 .. 4)", "8", "6", "70 %"}};
 }
@@ -45,9 +45,27 @@ TEST(StudyPage, DrawsABoxAndADistributionOfEachCharacteristic) {
 TEST(StudyPage, LeavesOutALimitFarBeyondAllValues) {
   StudyPage page;
   page.characteristics = {form()};
-  page.characteristics[0].box.limit = 600.0;
+  page.characteristics[0].box.limits = {-600.0, 600.0};
   page.characteristics[0].distribution.limits = {600.0};
   EXPECT_EQ(count(study_html(page), "class=\"limit\""), 0U);
+}
+
+TEST(StudyPage, DrawsBothLimitsOfDeviationsOfEitherSign) {
+  StudyPage page;
+  page.characteristics = {form()};
+  page.characteristics[0].box.limits = {-6.0, 6.0};
+  page.characteristics[0].distribution.limits.clear();
+  EXPECT_EQ(count(study_html(page), "class=\"limit\""), 2U);
+}
+
+TEST(StudyPage, NamesRisksThatAreTooRareForAPicture) {
+  StudyPage page;
+  page.characteristics = {form()};
+  page.characteristics[0].risk = RiskCurve{{0.0, 1.0}, {1e-7, 0.0}, {0.0, 1e-5}};
+  const std::string html = study_html(page);
+  EXPECT_THAT(html, HasSubstr("Both risks are below 0.0001"));
+  EXPECT_THAT(html, Not(HasSubstr("a&lt;b.risk.csv")));
+  EXPECT_EQ(count(html, "<a download="), 2U);
 }
 
 TEST(StudyPage, DrawsSharesRisksScatterAndMapsWhereTheyAreAsked) {
