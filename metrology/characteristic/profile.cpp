@@ -49,8 +49,8 @@ Result<Pose> told_place(const std::vector<ProbedSurface>& surfaces) {
   std::vector<std::string> names;
   for (const ProbedSurface& s : surfaces) names.push_back(s.feature->planned->name);
   return error(
-      "place-not-told"_id,
-      fmt::format("the points of '{}' do not tell how the part lies: turned by 1 deg in "
+      "place-not-identified"_id,
+      fmt::format("the points of '{}' do not identify how the part lies: turned by 1 deg in "
                   "a direction that they leave open, it deviates by up to {:.3g} um, which "
                   "a floating profile would count as form",
                   fmt::join(names, "', '"), fit->bend_of_untold * kUmPerMm),

@@ -352,19 +352,19 @@ Pitches pitches_for(const BoundingBox& blank, const std::vector<NonCuttingBody>&
 }
 
 // Blocks that follow each other with one body in the material: one collision.
-struct Stretch {
+struct BlockRun {
   CollisionKind kind = CollisionKind::body_in_material;
   int tool = 0;
   std::vector<std::pair<Key, Longest>> hits{};  // block after block
 };
-std::vector<Stretch> stretches_of(const Hits& hits, const ToolPath& path) {
-  std::vector<Stretch> found;
+std::vector<BlockRun> block_runs_of(const Hits& hits, const ToolPath& path) {
+  std::vector<BlockRun> found;
   std::map<CollisionBody, std::size_t> open;
   for (const auto& hit : hits) {
     const Collision here = described(path, hit.first, hit.second);
     const auto before = open.find(hit.first.body);
     if (before != open.end()) {
-      Stretch& last = found[before->second];
+      BlockRun& last = found[before->second];
       if (last.hits.back().first.block + 1 == hit.first.block && last.kind == here.kind &&
           last.tool == here.tool) {
         last.hits.emplace_back(hit);
@@ -377,25 +377,25 @@ std::vector<Stretch> stretches_of(const Hits& hits, const ToolPath& path) {
   return found;
 }
 
-Collision described(const ToolPath& path, const Stretch& stretch) {
+Collision described(const ToolPath& path, const BlockRun& run) {
   const auto deepest =
-      std::ranges::max_element(stretch.hits, {}, [](const auto& hit) { return hit.second.length; });
-  Collision whole = described(path, stretch.hits.front().first, deepest->second);
-  whole.last_line = path.blocks[stretch.hits.back().first.block].source_line;
+      std::ranges::max_element(run.hits, {}, [](const auto& hit) { return hit.second.length; });
+  Collision whole = described(path, run.hits.front().first, deepest->second);
+  whole.last_line = path.blocks[run.hits.back().first.block].source_line;
   return whole;
 }
 
 // Of blocks that few rays have shown to collide, along each axis, those that are not among the
-// deepest of their stretch: what the whole stretch reports is told by others. A body that is in the
+// deepest of their run: what the whole run reports is found from others. A body that is in the
 // material for thousands of blocks would be followed along each of many rays.
 Hits told_by_few(const std::array<Hits, 3>& families, const ToolPath& path) {
   constexpr std::size_t kDeepest = 32;
   Hits told;
-  for (Stretch& stretch : stretches_of(thinnest(families), path)) {
-    std::ranges::stable_sort(stretch.hits, std::greater(),
+  for (BlockRun& run : block_runs_of(thinnest(families), path)) {
+    std::ranges::stable_sort(run.hits, std::greater(),
                              [](const auto& hit) { return hit.second.length; });
-    for (std::size_t k = kDeepest; k < stretch.hits.size(); ++k) {
-      const auto& hit = stretch.hits[k];
+    for (std::size_t k = kDeepest; k < run.hits.size(); ++k) {
+      const auto& hit = run.hits[k];
       const bool is_in_all = std::ranges::all_of(
           families, [&hit](const Hits& family) { return family.contains(hit.first); });
       if (is_in_all) told.insert(hit);
@@ -418,7 +418,7 @@ std::vector<Collision> find_body_collisions(const Workpiece& workpiece,
   for (const auto& [key, hit] : hits) known.insert(key);
   hits.merge(thinnest(hits_of(workpiece, table, Passages(workpiece, bodies, known), pitch.fine)));
   std::vector<Collision> found;
-  for (const Stretch& stretch : stretches_of(hits, path)) found.push_back(described(path, stretch));
+  for (const BlockRun& run : block_runs_of(hits, path)) found.push_back(described(path, run));
   return found;
 }
 

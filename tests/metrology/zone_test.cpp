@@ -336,7 +336,7 @@ TEST(Profile, WithoutDatumsOfOneSectionIsRefusedForItMayBeAskew) {
     c.floating = true;
     const auto refused = evaluate(c, features);
     ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().front().id, "place-not-told"_id);
+    EXPECT_EQ(refused.error().front().id, "place-not-identified"_id);
     EXPECT_THAT(refused.error().front().message, HasSubstr("'shaft'"));
     // 14.4 mm (1 / cos 1 deg - 1)
     EXPECT_THAT(refused.error().front().message, HasSubstr("2.19 um"));

@@ -115,7 +115,7 @@ TEST(FloatingProfile, Fault2_60_TheEquatorOfABallSettlesAndIsRefused) {
     for (const Vec3& p : points) found.points.push_back({p, Vec3::UnitX(), 0.0, 0});
     const auto refused = evaluate(floating_profile(K::surface_profile), std::span(&found, 1));
     ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().front().id, "place-not-told"_id);
+    EXPECT_EQ(refused.error().front().id, "place-not-identified"_id);
   }
 }
 
