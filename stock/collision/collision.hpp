@@ -13,8 +13,9 @@
 //            the cutter's radius between rings and an eighth of a right angle around; a twelfth of
 //            the diameter where it turns, but not less than 1/128 of the move's box; for shanks and
 //            holders a quarter of their radius, but not less than 1/250 of the blank's longest
-//            side. A depth is as exact as the densest of them; in long runs of blocks it is
-//            that of the 32 that are deepest along rays up to eight times as far apart
+//            side, after those that up to eight times as few rays have found. The depth of the
+//            cutter is as exact as its rays are dense, that of a shank or holder is the deepest of
+//            four blocks of its run (body_depth.hpp)
 // Threads  : find_collisions() runs on oneTBB; the same bits for any number of threads
 #pragma once
 
