@@ -84,6 +84,13 @@ std::vector<AxisRun> runs_of(const AxisCourse& course, AxisLetter axis,
                              std::span<const Sample> samples, std::optional<double>& furthest) {
   const double least = least_motion(axis);
   const auto q = [&](std::size_t k) { return samples[k].q[axis]; };
+  // Two samples at one place may as well be the same way before and after a turn between them.
+  const auto stood = [&](std::size_t first, std::size_t last) {
+    if (last == first || std::abs(q(last) - q(first)) > rounding(axis)) return false;
+    const double between = 0.5 * (samples[last - 1].u + samples[last].u);
+    return std::abs(q(last - 1) - q(first)) <= rounding(axis) &&
+           std::abs(course(between) - q(first)) <= rounding(axis);
+  };
   std::vector<AxisRun> segments;
   if (!furthest || std::abs(q(0) - *furthest) > least) furthest = q(0);
   std::size_t first = 0, last = 0;  // samples that are at the furthest place so far
@@ -97,9 +104,7 @@ std::vector<AxisRun> runs_of(const AxisCourse& course, AxisLetter axis,
     const double now = moved > 0.0 ? 1.0 : -1.0;
     if (now != sense) {
       double u = samples[last].u;
-      const bool stood = last > first && std::abs(q(last) - q(first)) <= rounding(axis) &&
-                         std::abs(q(last - 1) - q(first)) <= rounding(axis);
-      if (stood) {
+      if (stood(first, last)) {
         u = course.leaves(q(last), rounding(axis), samples[last].u, samples[k].u);
       } else if (sense != 0.0 || last > first) {
         const std::size_t before = first > 0 ? first - 1 : 0;

@@ -125,6 +125,23 @@ TEST(HeadingTracker, RoundingOfAProgramsWordsTurnsNoAxisAndACreepDoes) {
   EXPECT_EQ(move_to(10.0001).after(0.0)[kX], 1.0);
 }
 
+// On a full circle two samples are at one place where parts are odd in number: the axis did not
+// stand between them.
+TEST(HeadingTracker, TurnsInTheMiddleOfAPartAsAnywhereElse) {
+  for (int parts = 2; parts < 100; ++parts) {
+    for (const double start : {0.0, 0.25, 1.0 / 3.0}) {
+      ApproachTracker tracker = tracker_of(kX, 0.0);
+      (void)tracker.follow(along_x([](double u) { return 60.0 - 5.0 * u; }), 4);
+      const auto circle = [start](double u) { return 55.0 * std::cos(2.0 * pi * (u + start)); };
+      const auto profile = tracker.follow(along_x(circle), parts);
+      const double turn = start < 0.5 ? 0.5 - start : 0.0;
+      const auto turns = profile.turning_points();
+      EXPECT_TRUE(std::ranges::any_of(turns, [&](double u) { return std::abs(u - turn) < 1e-6; }))
+          << parts << " parts from " << start;
+    }
+  }
+}
+
 TEST(HeadingTracker, TakesUpThePlayOverTheSettlingDistance) {
   ApproachTracker tracker = tracker_of(kX, 2.0);
   const auto out = tracker.follow(along_x([](double u) { return 10.0 * u; }), 4);
