@@ -124,7 +124,7 @@ Result<Measurement> evaluated(const InspectionPlan& plan, std::vector<FittedFeat
     const auto uncertain = linear_uncertainty(plan, features, u);
     if (!uncertain) return uncertain.error();
     for (std::size_t i = 0; i < uncertain->standard.size(); ++i) {
-      const double per_internal = evaluator_of(plan.characteristics[i].kind).per_internal;
+      const double per_internal = unit_of(plan.characteristics[i]).per_internal;
       state(measurement->characteristics[i], per_internal * uncertain->standard[i],
             per_internal * uncertain->bounds[i].below, per_internal * uncertain->bounds[i].above,
             uncertain->is_proven[i]);

@@ -5,6 +5,7 @@
 
 #include "core/file_set.hpp"
 #include "cutter/body/cutter_file.hpp"
+#include "stock/mesh/io/mesh_file.hpp"
 
 namespace frustum::programs {
 namespace {
@@ -42,6 +43,22 @@ std::string blank_text(const stock::BlankShape& shape, const Vec3& origin) {
       "{{ shape = \"frustum\", bottom_diameter = {}, top_diameter = {}, height = {}, origin = {} "
       "}}",
       2.0 * frustum.bottom_radius, 2.0 * frustum.top_radius, frustum.height, vector_text(origin));
+}
+
+// With the mean normal of the facets at each corner.
+std::string mesh_text(const stock::FacetSolid& solid) {
+  stock::SurfaceMesh mesh;
+  mesh.vertices.assign(solid.vertices().begin(), solid.vertices().end());
+  mesh.triangles.assign(solid.facets().begin(), solid.facets().end());
+  mesh.normals.assign(mesh.vertices.size(), Vec3::Zero());
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+    for (const std::uint32_t corner : mesh.triangles[f]) {
+      mesh.normals[corner] += solid.normal(static_cast<EndTag>(f));
+    }
+  }
+  for (Vec3& normal : mesh.normals) normal.normalize();
+  mesh.kinds.assign(mesh.vertices.size(), stock::VertexKind::surface);
+  return stock::mesh_bytes(mesh, stock::MeshFormat::ply);
 }
 
 }  // namespace
@@ -110,6 +127,9 @@ Result<std::vector<fs::path>> write_test_piece(const TestPiece& piece, const std
       {"job.toml", job_text(piece, machine, plan.string())},
       {piece.program_file, piece.program},
       {plan.string(), metrology::to_toml(piece.plan)}};
+  if (const auto* mesh = std::get_if<stock::MeshShape>(&piece.blank)) {
+    contents.emplace_back(mesh->file, mesh_text(*mesh->solid));
+  }
   if (!sheet.empty()) contents.emplace_back("setup.html", sheet);
   std::vector<std::string> names;
   for (const auto& [name, text] : contents) names.push_back(name);

@@ -50,6 +50,7 @@ void add_study(Command& program);
 // Kinds of test pieces: commands of `program`.
 void add_cone(Command& kinds);
 void add_step(Command& kinds);
+void add_contour(Command& kinds);
 
 // The options that all kinds have: --machine, --out, --dialect.
 struct PieceOptions : AnswerOptions {

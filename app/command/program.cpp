@@ -42,6 +42,7 @@ void add_program(Command& program) {
   kinds.needs_a_command();
   add_cone(kinds);
   add_step(kinds);
+  add_contour(kinds);
 }
 
 }  // namespace frustum::app

@@ -203,9 +203,9 @@ Result<Study> load_study(const fs::path& file) {
   if (!document) return document.error();
   const TomlTable& root = document->root();
   if (!root.has("part") && (root.has("job") || root.has("target"))) {
-    Diagnostic population =
-        error("not-a-study"_id, "this is a study of a population, not of measured parts",
-              "frustum study reads it; frustum identify wants [[part]] with name, job and measured");
+    Diagnostic population = error(
+        "not-a-study"_id, "this is a study of a population, not of measured parts",
+        "frustum study reads it; frustum identify wants [[part]] with name, job and measured");
     population.file = file.string();
     return population;
   }

@@ -104,7 +104,8 @@ class NearGroups {
                             .cwiseMax(ball_.centre - group.box.max)
                             .cwiseMax(Vec3::Zero());
     return beyond.squaredNorm() > ball_.radius * ball_.radius ||
-           sweep_.body->distance(group.representative(path_), ball_.centre) - group.shift > ball_.radius;
+           sweep_.body->distance(group.representative(path_), ball_.centre) - group.shift >
+               ball_.radius;
   }
 
   const ToolPath& path_;

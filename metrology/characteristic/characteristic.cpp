@@ -34,8 +34,7 @@ Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
 
 Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
                                       std::vector<const FittedFeature*> named) {
-  const Evaluator& evaluator = evaluator_of(planned.kind);
-  auto value = evaluator.evaluate({planned, std::move(named)});
+  auto value = evaluator_of(planned.kind).evaluate({planned, std::move(named)});
   if (!value) {
     Diagnostics failure = std::move(value).error();
     for (Diagnostic& d : failure) {
@@ -43,6 +42,11 @@ Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
     }
     return failure;
   }
+  if (planned.deviation) {
+    value->value -= *value->nominal;
+    value->nominal = 0.0;
+  }
+  const ResultUnit unit = unit_of(planned);
   CharacteristicResult result;
   result.name = planned.name;
   result.kind = std::string(name_of(planned.kind));
@@ -53,10 +57,10 @@ Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
     result.parameter = kParameterNames.at(static_cast<std::size_t>(*planned.parameter));
   }
   result.floating = planned.floating;
-  result.unit = std::string(evaluator.unit);
-  result.value = value->value * evaluator.per_internal;
-  if (value->nominal) result.nominal = as_stated(*value->nominal * evaluator.per_internal);
-  result.tolerance = as_stated(planned.tolerance * evaluator.per_internal);
+  result.unit = std::string(unit.name);
+  result.value = value->value * unit.per_internal;
+  if (value->nominal) result.nominal = as_stated(*value->nominal * unit.per_internal);
+  result.tolerance = as_stated(planned.tolerance * unit.per_internal);
   const double nominal = value->nominal.value_or(0.0);
   result.pass = std::abs(value->value - nominal) <=
                 planned.tolerance + rounding_slack(value->value, nominal, planned.tolerance);
@@ -65,8 +69,8 @@ Result<CharacteristicResult> evaluate(const PlannedCharacteristic& planned,
   result.profiles = std::move(value->lines);
   result.harmonics = std::move(value->harmonics);
   if (value->without_seam) {
-    result.without_seam = SeamlessValue{*value->without_seam * evaluator.per_internal,
-                                        planned.seam->at, planned.seam->within};
+    result.without_seam = SeamlessValue{*value->without_seam * unit.per_internal, planned.seam->at,
+                                        planned.seam->within};
   }
   result.spread = std::move(value->measurand);
   if (value->has_shape) result.measurand = result.spread;

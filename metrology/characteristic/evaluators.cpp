@@ -11,7 +11,7 @@ namespace {
 
 constexpr Evaluator zone_by(CharacteristicKind kind,
                             Result<Evaluated> (*evaluate)(const Toleranced&)) {
-  return {kind, evaluate, "um", kUmPerMm};
+  return {kind, evaluate, {"um", kUmPerMm}};
 }
 
 // Where each characteristic is evaluated.
@@ -42,12 +42,12 @@ const auto& evaluators() {
       zone_by(line_profile, evaluate_line_profile),
       zone_by(surface_profile, evaluate_surface_profile),
       // Size
-      Evaluator{radius, evaluate_radius, "mm", 1.0},
-      Evaluator{diameter, evaluate_diameter, "mm", 1.0},
-      Evaluator{half_angle, evaluate_half_angle, "deg", kDegPerRad},
+      Evaluator{radius, evaluate_radius, {"mm", 1.0}},
+      Evaluator{diameter, evaluate_diameter, {"mm", 1.0}},
+      Evaluator{half_angle, evaluate_half_angle, {"deg", kDegPerRad}},
       // Lines
-      Evaluator{line_distance, evaluate_lines, "um", kUmPerMm},
-      Evaluator{line_angle, evaluate_lines, "urad", kUradPerRad},
+      Evaluator{line_distance, evaluate_lines, {"um", kUmPerMm}},
+      Evaluator{line_angle, evaluate_lines, {"urad", kUradPerRad}},
   };
   return kAll;
 }
@@ -60,6 +60,11 @@ const Evaluator& evaluator_of(CharacteristicKind kind) {
       std::find_if(all.begin(), all.end(), [&](const Evaluator& e) { return e.kind == kind; });
   assert(found != all.end());
   return *found;
+}
+
+ResultUnit unit_of(const PlannedCharacteristic& planned) {
+  if (!planned.deviation) return evaluator_of(planned.kind).unit;
+  return is_angle(planned.kind) ? ResultUnit{"urad", kUradPerRad} : ResultUnit{"um", kUmPerMm};
 }
 
 std::set<std::size_t> sections_of(const Toleranced& what) {

@@ -37,13 +37,19 @@ struct Toleranced {
   std::vector<const FittedFeature*> features{};  // in the order in which it names them
 };
 
+struct ResultUnit {
+  std::string_view name{};
+  double per_internal = 1.0;  // such units in a mm or rad
+};
+
 struct Evaluator {
   CharacteristicKind kind{};
   Result<Evaluated> (*evaluate)(const Toleranced&) = nullptr;
-  std::string_view unit{};    // of the result
-  double per_internal = 1.0;  // such units in a mm or rad
+  ResultUnit unit{};
 };
 [[nodiscard]] const Evaluator& evaluator_of(CharacteristicKind kind);
+// Deviations of sizes are in um or urad.
+[[nodiscard]] ResultUnit unit_of(const PlannedCharacteristic& planned);
 
 // Least squares, without parameter, filter and harmonics.
 [[nodiscard]] bool is_plain(const PlannedCharacteristic& planned);

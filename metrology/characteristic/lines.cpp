@@ -18,6 +18,7 @@ struct ReadLine {
   double turned = 0.0;  // rad, angle of the measured line less that of the planned one
 };
 
+// The place along the axes is counted from `origin`.
 Result<ReadLine> read_line(const FittedFeature& feature, const LineAxes& axes, double origin) {
   const PlannedFeature& planned = *feature.planned;
   const Vec3& place = planned.point;
@@ -46,6 +47,16 @@ Result<ReadLine> read_line(const FittedFeature& feature, const LineAxes& axes, d
   return out;
 }
 
+// Along the axes of the first one; at an angle to it along its own, which direction and line have:
+// check_line_pair.
+Result<ReadLine> read_second(const FittedFeature& second, const PlannedCharacteristic& planned,
+                             const LineAxes& axes, double origin) {
+  const Vec3& axis = second.planned->axis;
+  if (is_parallel(axis, axes.along)) return read_line(second, axes, origin);
+  const LineAxes own = *line_axes(planned.kind, axis, planned.direction);
+  return read_line(second, own, second.planned->point.dot(own.along));
+}
+
 }  // namespace
 
 Result<Evaluated> evaluate_lines(const Toleranced& what) {
@@ -58,7 +69,7 @@ Result<Evaluated> evaluate_lines(const Toleranced& what) {
   const double origin = first.planned->point.dot(axes->along);
   auto a = read_line(first, *axes, origin);
   if (!a) return std::move(a).error();
-  auto b = read_line(second, *axes, origin);
+  auto b = read_second(second, what.planned, *axes, origin);
   if (!b) return std::move(b).error();
   Evaluated out;
   out.value = what.planned.kind == CharacteristicKind::line_angle

@@ -1,4 +1,4 @@
-// Straightness of lines, of the generatrices of a cylinder or cone (the worst), of an axis.
+// Straightness of lines, of the generatrices of a cylinder or cone, of an axis; of several the worst.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -143,15 +143,17 @@ std::vector<PlanarProfile> generatrices(const FittedFeature& feature) {
   return all;
 }
 
-// The narrowest cylinder about the least-squares axis.
+// The narrowest cylinder about the least-squares axis; of several lines the widest of them.
 Evaluated straightness_about_axis(const Toleranced& what) {
-  const FittedFeature& feature = *what.features.front();
-  const Vec3 axis = *axis_of(feature.element);
-  NonNegative off{{NonNegativeKind::twice_largest}, {}, feature.all_points()};
-  for (const Vec3& p : off.places) {
-    const Vec3 from = p - point_of(feature.element);
-    const Vec3 across = from - from.dot(axis) * axis;
-    off.parts.insert(off.parts.end(), across.begin(), across.end());
+  NonNegative off{{NonNegativeKind::twice_largest}, {}, {}};
+  for (const FittedFeature* feature : what.features) {
+    const Vec3 axis = *axis_of(feature->element);
+    for (const Vec3& p : feature->all_points()) {
+      const Vec3 from = p - point_of(feature->element);
+      const Vec3 across = from - from.dot(axis) * axis;
+      off.places.push_back(p);
+      off.parts.insert(off.parts.end(), across.begin(), across.end());
+    }
   }
   off.own.assign(off.places.size(), 1.0);
   Evaluated found{size_of(off)};
@@ -170,17 +172,23 @@ double lowest_height(const std::vector<Vec3>& c) {
 }  // namespace
 
 Result<Evaluated> evaluate_straightness(const Toleranced& what) {
-  const FittedFeature& feature = *what.features.front();
-  const bool is_line = feature.planned->kind == FeatureKind::line;
-  // A line without further wishes: all its points about its axis, in space.
-  if (is_line && is_plain(what.planned)) return straightness_about_axis(what);
-  const std::vector<PlanarProfile> profiles =
-      is_line ? std::vector<PlanarProfile>{profile_of_line(feature)} : generatrices(feature);
-  if (profiles.empty()) {
-    return error(
-        "too-few-points"_id,
-        fmt::format("no three points of '{}' are on one generatrix", feature.planned->name),
-        "plan three sections or more with the same number of points");
+  const auto is_line = [](const FittedFeature* f) { return f->planned->kind == FeatureKind::line; };
+  // Lines without further wishes: all their points about their axes, in space.
+  if (is_plain(what.planned) && std::ranges::all_of(what.features, is_line)) {
+    return straightness_about_axis(what);
+  }
+  std::vector<PlanarProfile> profiles;
+  for (const FittedFeature* feature : what.features) {
+    const std::vector<PlanarProfile> its =
+        is_line(feature) ? std::vector<PlanarProfile>{profile_of_line(*feature)}
+                         : generatrices(*feature);
+    if (its.empty()) {
+      return error(
+          "too-few-points"_id,
+          fmt::format("no three points of '{}' are on one generatrix", feature->planned->name),
+          "plan three sections or more with the same number of points");
+    }
+    profiles.insert(profiles.end(), its.begin(), its.end());
   }
   Evaluated zone;
   zone.has_shape = false;

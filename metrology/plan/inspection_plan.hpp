@@ -284,8 +284,9 @@ struct PlannedCharacteristic {
   Criterion datum_criterion = Criterion::least_squares;
   std::optional<FormParameter> parameter{};  // of forms; absent: peak to valley
   std::optional<ProfileFilter> filter{};     // roundness, straightness, circular run-out
-  int harmonics = 0;      // highest that is reported of a roundness or circular run-out
-  bool floating = false;  // profiles: the planned geometry is laid into the points first
+  int harmonics = 0;       // highest that is reported of a roundness or circular run-out
+  bool floating = false;   // profiles: the planned geometry is laid into the points first
+  bool deviation = false;  // sizes: the value is the deviation from the nominal one
   // Roundness, equivalent_cone_form: the value without this sector is reported beside the whole.
   std::optional<Seam> seam{};
 

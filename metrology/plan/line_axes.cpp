@@ -14,4 +14,9 @@ std::optional<LineAxes> line_axes(CharacteristicKind kind, const Vec3& line,
   return LineAxes{u, *across, u.cross(across->vec())};
 }
 
+bool is_parallel(const Vec3& a, const Vec3& b) {
+  constexpr double kParallel = 1e-6;
+  return a.normalized().cross(b.normalized()).norm() <= kParallel;
+}
+
 }  // namespace frustum::metrology

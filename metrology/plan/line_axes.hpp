@@ -27,4 +27,8 @@ struct LineAxes {
 [[nodiscard]] std::optional<LineAxes> line_axes(CharacteristicKind kind, const Vec3& line,
                                                 const Vec3& direction);
 
+// Within what counts as planned parallel: 1e-6 rad. What a program computes is far nearer, what a
+// drawing means to be parallel too; more would be a systematic error of a um in a metre.
+[[nodiscard]] bool is_parallel(const Vec3& a, const Vec3& b);
+
 }  // namespace frustum::metrology

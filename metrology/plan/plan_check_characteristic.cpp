@@ -24,7 +24,8 @@ enum Takes : unsigned {
   open_filter = 8,
   harmonics_key = 16,
   datum_criterion_key = 32,
-  floating_key = 64
+  floating_key = 64,
+  deviation_key = 128
 };
 
 struct Rule {
@@ -69,19 +70,19 @@ const std::vector<Rule>& rules() {
       {K::flatness, {plane}, {}, 1, 1, kOne, 0, parameter_key, "ls mz"},
       {K::straightness,
        {line, cylinder, cone},
-       {},
+       {line, cylinder, cone},
        1,
-       1,
-       kOne,
+       kMany,
+       "one feature or more",
        0,
        parameter_key | open_filter,
        "ls mz"},
-      {K::half_angle, {cone}, {}, 1, 1, kOne, 0, 0, "ls"},
+      {K::half_angle, {cone}, {}, 1, 1, kOne, 0, deviation_key, "ls"},
       {K::concentricity, axes, axes, 1, 2, kDatum, 2, 0, "ls"},
       {K::perpendicularity, directed, directed, 1, 2, kDatum, 0, datum_criterion_key | frame_key,
        "ls mz mi mc"},
-      {K::radius, sized, {}, 1, 1, kOne, 0, 0, "ls"},
-      {K::diameter, sized, {}, 1, 1, kOne, 0, 0, "ls"},
+      {K::radius, sized, {}, 1, 1, kOne, 0, deviation_key, "ls"},
+      {K::diameter, sized, {}, 1, 1, kOne, 0, deviation_key, "ls"},
       {K::line_distance, {line}, {line}, 2, 2, kPair, 0, frame_key, "ls"},
       {K::line_angle, {line}, {line}, 2, 2, kPair, 0, frame_key, "ls"},
       {K::axis_straightness, axes, {}, 1, 1, kOne, 0, 0, "ls mz"},
@@ -340,6 +341,10 @@ class CharacteristicCheck {
     if (c_.floating && !takes(floating_key)) {
       wrong("floating", fmt::format("not for a {}", kind()),
             "only line_profile and surface_profile can do without datums");
+    }
+    if (c_.deviation && !takes(deviation_key)) {
+      wrong("deviation", fmt::format("not for a {}", kind()),
+            "only radius, diameter and half_angle have a value besides it");
     }
     if (c_.filter) filter(*c_.filter);
     if (c_.seam) seam(*c_.seam);

@@ -96,13 +96,14 @@ void check_line_pair(const InspectionPlan& plan, std::size_t index, const Planne
     return;
   }
   if (!has_directions(first) || !has_directions(second)) return;
-  if (const double angle = sine(first.axis, second.axis); angle > kParallel) {
+  const bool parallel = is_parallel(first.axis, second.axis);
+  if (!parallel && c.kind == CharacteristicKind::line_distance) {
     wrong("features",
           fmt::format("'{}' and '{}' must be planned parallel, they are {:.6g} deg apart",
-                      first.name, second.name, degrees_of_sine(angle)));
+                      first.name, second.name, degrees_of_sine(sine(first.axis, second.axis))));
     return;
   }
-  if (sine(first.axis, c.direction) < kSlack) {
+  if (sine(first.axis, c.direction) < kSlack || sine(second.axis, c.direction) < kSlack) {
     wrong("direction", "is along the lines", "choose one across them");
     return;
   }
@@ -112,8 +113,8 @@ void check_line_pair(const InspectionPlan& plan, std::size_t index, const Planne
                                    degrees_of_sine(askew)));
     return;
   }
-  const auto axes = line_axes(c.kind, first.axis, c.direction);
   for (const PlannedFeature* line : {&first, &second}) {
+    const auto axes = line_axes(c.kind, parallel ? first.axis : line->axis, c.direction);
     if (facing(*line, axes->across) >= kSlack) continue;
     wrong("direction",
           fmt::format("the surface of '{}' is along what is measured, [{:.3g}, {:.3g}, {:.3g}], "

@@ -254,6 +254,7 @@ PlannedCharacteristic read_characteristic(const TomlTable& table) {
   if (const auto filter = table.table_if("filter")) c.filter = read_filter(*filter);
   if (table.has("harmonics")) c.harmonics = count(table, "harmonics");
   c.floating = table.boolean_or("floating", false);
+  c.deviation = table.boolean_or("deviation", false);
   if (const auto seam = table.table_if("seam")) {
     c.seam = Seam{seam->angle("at").value, seam->angle("within", Bound::positive).value};
   }

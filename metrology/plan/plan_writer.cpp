@@ -222,6 +222,7 @@ std::string text_of_evaluation(const PlannedCharacteristic& c) {
   if (c.filter) out += fmt::format("filter = {}\n", text_of(*c.filter));
   if (c.harmonics > 0) out += fmt::format("harmonics = {}\n", c.harmonics);
   if (c.floating) out += "floating = true\n";
+  if (c.deviation) out += "deviation = true\n";
   if (c.seam) {
     out += fmt::format("seam = {{ at = {}, within = {} }}\n", angle(c.seam->at),
                        angle(c.seam->within));

@@ -60,10 +60,12 @@ Eigen::VectorXd parts_of(const CharacteristicResult& c) {
                                            static_cast<Eigen::Index>(c.spread.parts.size()));
 }
 
-// A profile of several surfaces tolerances all of them.
+// A profile or straightness of several features tolerances all of them.
 bool is_toleranced(const PlannedCharacteristic& planned, const std::string& feature) {
-  if (planned.kind != CharacteristicKind::surface_profile)
+  if (planned.kind != CharacteristicKind::surface_profile &&
+      planned.kind != CharacteristicKind::straightness) {
     return planned.features.front() == feature;
+  }
   const auto& all = planned.features;
   return std::find(all.begin(), all.end(), feature) != all.end();
 }

@@ -152,6 +152,17 @@ Vec3 normal_of_lines(const PlannedParts& plan, const PlannedCharacteristic* plan
   return feature->kind == metrology::FeatureKind::plane ? axis.unitOrthogonal() : axis;
 }
 
+// The size that the value is a deviation from, in the document's mm or deg; 0 where it is none.
+double size_deviated_from(const PlannedParts& plan, const PlannedCharacteristic* planned) {
+  if (planned == nullptr || !planned->deviation) return 0.0;
+  const metrology::PlannedFeature* feature = plan.feature(planned->features.front());
+  if (feature == nullptr) return 0.0;
+  if (planned->kind == metrology::CharacteristicKind::half_angle)
+    return feature->half_angle * kDegPerRad;
+  return planned->kind == metrology::CharacteristicKind::diameter ? 2.0 * feature->radius
+                                                                  : feature->radius;
+}
+
 void add_nominal(xml_node node, const CharacteristicKindRow& row,
                  const CharacteristicResult& result, const PlannedParts& plan,
                  const PlannedCharacteristic* planned) {
@@ -159,7 +170,8 @@ void add_nominal(xml_node node, const CharacteristicKindRow& row,
   if (row.kind == "line_profile") add_vector(node, "Vector", normal_of_lines(plan, planned));
   if (row.zone != Zone::limits && row.zone != Zone::between) return;
   if (result.nominal) {
-    add_number(node, "TargetValue", document_value(*result.nominal, result));
+    add_number(node, "TargetValue",
+               document_value(*result.nominal, result) + size_deviated_from(plan, planned));
   }
   if (row.zone != Zone::between) return;
   const Vec3 direction = planned == nullptr ? Vec3(Vec3::Zero()) : planned->direction;
@@ -253,7 +265,8 @@ void add_measured_characteristics(xml_node results, const InspectionPlan& plan,
     if (planned != nullptr) add_algorithm(node, planned->criterion);
     if (!std::isfinite(result.value)) continue;
     const double standard = document_value(0.5 * result.expanded_uncertainty, result);
-    xml_node value = add_number(node, "Value", document_value(result.value, result));
+    const double size = document_value(result.value, result) + size_deviated_from(parts, planned);
+    xml_node value = add_number(node, "Value", size);
     if (std::isfinite(standard) && !result.is_accuracy_unknown) {
       value.append_attribute("combinedUncertainty") = xml_decimal(standard).c_str();
     }

@@ -101,7 +101,7 @@ TEST(Evaluators, AreOneForEachKind) {
     const Evaluator& evaluator = evaluator_of(kind);
     EXPECT_EQ(evaluator.kind, kind) << name_of(kind);
     EXPECT_NE(evaluator.evaluate, nullptr) << name_of(kind);
-    EXPECT_FALSE(evaluator.unit.empty()) << name_of(kind);
+    EXPECT_FALSE(evaluator.unit.name.empty()) << name_of(kind);
   }
 }
 
