@@ -1,4 +1,4 @@
-// Straightness of lines, of the generatrices of a cylinder or cone, of an axis; of several the worst.
+// Straightness of lines, of generatrices of a cylinder or cone (of several the worst), of an axis.
 #include <fmt/format.h>
 
 #include <algorithm>

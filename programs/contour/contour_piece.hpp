@@ -14,7 +14,7 @@
 //            down each level
 // Errors   : contour_piece() refuses sizes of less than 60 mm, machines without axes X, Y, Z, and
 //            places out of travel
-// Accuracy : closed forms of tests/programs/contour_test.cpp within 0.02 um and 0.02 urad
+// Accuracy : closed forms of tests/trials/contour_piece_test.cpp within 0.02 um and 0.02 urad
 // Source   : ISO 10791-7 by name; dimensions are ours
 #pragma once
 
