@@ -134,6 +134,25 @@ Result<Signature> signature(std::span<const CircleTrace> traces, double length) 
   return found;
 }
 
+std::array<bool, kSignatureTerms> told_terms(std::span<const CircleTrace> traces,
+                                             const Signature& signature, double length) {
+  double count = 0.0, degrees = 0.0;
+  for (const CircleTrace& trace : traces) {
+    if (trace.angle.empty()) continue;
+    const auto [least, most] = std::ranges::minmax(trace.angle);
+    count += static_cast<double>(trace.angle.size());
+    degrees += (most - least) * kDegPerRad;
+  }
+  std::array<bool, kSignatureTerms> told{};
+  for (std::size_t k = 0; k < kSignatureTerms; ++k) {
+    const auto term = static_cast<SignatureTerm>(k);
+    if (term == SignatureTerm::servo && !signature.both_senses) continue;
+    const double unit = term == SignatureTerm::square ? 0.5 * length : 1.0;
+    told[k] = signature.sd_per_noise[k] * unit * std::sqrt(count / degrees) < 1.0;
+  }
+  return told;
+}
+
 std::vector<std::vector<double>> residuals(std::span<const CircleTrace> traces,
                                            const Signature& signature, double length) {
   const Terms x = in_mm(signature, length);

@@ -57,6 +57,12 @@ struct Signature {
 
 [[nodiscard]] Result<Signature> signature(std::span<const CircleTrace> traces, double length);
 
+// Whether a trace tells each term: with one reading a degree its standard deviation is below the
+// noise of a single reading. A quadrant tells backlash and servo mismatch only.
+[[nodiscard]] std::array<bool, kSignatureTerms> told_terms(std::span<const CircleTrace> traces,
+                                                           const Signature& signature,
+                                                           double length);
+
 // What is left of each trace without the terms.
 [[nodiscard]] std::vector<std::vector<double>> residuals(std::span<const CircleTrace> traces,
                                                          const Signature& signature, double length);
