@@ -14,24 +14,23 @@ using kinematics::AxisPositions;
 
 constexpr double kStep = 1.0 * kRadPerDeg;  // between the places of an arc that are looked at
 
-std::optional<Diagnostic> beyond(const kinematics::Machine& machine, const AxisPositions& q,
-                                 const std::string& place) {
-  if (within_travel(machine, q)) return std::nullopt;
-  return error("axis-overtravel"_id,
-               fmt::format("the test cannot be run: {}: {}", place,
-                           fmt::join(kinematics::travel_violations(machine, q), "; ")),
-               "use a shorter bar, another place of the table ball or fewer angles");
+Diagnostic beyond(const kinematics::Machine& machine, const AxisPositions& q,
+                  const std::string& what, double parameter) {
+  return error(
+      "axis-overtravel"_id,
+      fmt::format("the test cannot be run: at {} = {:.6g} deg: {}", what, parameter * kDegPerRad,
+                  fmt::join(kinematics::travel_violations(machine, q), "; ")),
+      "use a shorter bar, another place of the table ball or fewer angles");
 }
 
 }  // namespace
 
 std::optional<Diagnostic> out_of_reach(const kinematics::Machine& machine, const MotionTest& test,
                                        const std::string& what) {
-  const auto place = [&](double parameter) {
-    return fmt::format("at {} = {:.6g} deg", what, parameter * kDegPerRad);
-  };
   for (const TestPose& pose : test.poses) {
-    if (auto problem = beyond(machine, pose.at.q, place(pose.parameter))) return problem;
+    if (!within_travel(machine, pose.at.q)) {
+      return beyond(machine, pose.at.q, what, pose.parameter);
+    }
   }
   if (!test.motion.axes) return std::nullopt;
   // Between the samples, which may be few.
@@ -40,9 +39,21 @@ std::optional<Diagnostic> out_of_reach(const kinematics::Machine& machine, const
   const double from = least->parameter, to = most->parameter;
   for (int i = 1; from + i * kStep < to; ++i) {
     const double parameter = from + i * kStep;
-    if (auto problem = beyond(machine, test.motion.axes(parameter), place(parameter))) {
-      return problem;
-    }
+    const AxisPositions q = test.motion.axes(parameter);
+    if (!within_travel(machine, q)) return beyond(machine, q, what, parameter);
+  }
+  return std::nullopt;
+}
+
+std::optional<Diagnostic> beyond_stroke(const MotionTest& test, std::span<const double> readings,
+                                        double stroke, const std::string& what) {
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    if (std::abs(readings[i]) <= stroke) continue;
+    return error("stroke-exceeded"_id,
+                 fmt::format("the bar reads {:.4g} mm at {} = {:.6g} deg, beyond its stroke of "
+                             "{:g} mm",
+                             readings[i], what, test.poses[i].parameter * kDegPerRad, stroke),
+                 "check the errors, the set-up and the length of the bar");
   }
   return std::nullopt;
 }

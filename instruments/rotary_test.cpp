@@ -40,6 +40,31 @@ SplitChain split(const std::vector<Joint>& chain, kinematics::AxisLetter at, con
   return parts;
 }
 
+Vec3 turned_about(const Joint& joint, double angle, const Vec3& v) {
+  const double s = std::sin(angle), c = std::cos(angle);
+  const Vec3& e = joint.direction;
+  return c * v + s * e.cross(v) + ((1.0 - c) * e.dot(v)) * e;
+}
+
+// From the rotor of a joint to the bed.
+Vec3 turned_by(const std::vector<Joint>& chain, kinematics::AxisLetter rotor,
+               const AxisPositions& q, Vec3 v) {
+  bool inside = false;
+  for (auto joint = chain.rbegin(); joint != chain.rend(); ++joint) {
+    inside = inside || joint->letter == rotor;
+    if (inside && joint->rotary()) v = turned_about(*joint, joint->side * q[joint->letter], v);
+  }
+  return v;
+}
+
+// From the bed to the end of the chain.
+Vec3 turned_back_by(const std::vector<Joint>& chain, const AxisPositions& q, Vec3 v) {
+  for (const Joint& joint : chain) {
+    if (joint.rotary()) v = turned_about(joint, -joint.side * q[joint.letter], v);
+  }
+  return v;
+}
+
 // The unit arm from the axis to the ball, in the frame of the rotor.
 Vec3 arm_of(const Vec3& ball, const Vec3& axis) {
   // A ball within a nanometre of the axis has no side.
@@ -66,15 +91,12 @@ class BarPath {
                 : test.direction == BarDirection::radial ? Vec3(on_tool ? -arm : arm)
                                                          : joint_.direction.cross(arm);
     in_bed_at_zero_ = parts.bed_from_rotor.rotation * in_rotor_;
+    in_table_ = parts.rotor_from_end.rotation.transpose() * in_rotor_;
   }
 
   // Spindle ball, table frame.
   [[nodiscard]] Vec3 tip_at(const AxisPositions& q) const {
-    const Vec3 in_bed = test_.hold == BarHold::rotor
-                            ? Vec3(chain_at(q).bed_from_rotor.rotation * in_rotor_)
-                            : in_bed_at_zero_;
-    const Mat3 bed_from_table = work_side_frames(machine_, q).bed_from_end.rotation;
-    return test_.table_ball + test_.length * (bed_from_table.transpose() * in_bed);
+    return test_.table_ball + test_.length * direction_at(q);
   }
   [[nodiscard]] AxisPositions turned(double angle) const {
     AxisPositions q = test_.held;
@@ -87,6 +109,15 @@ class BarPath {
   }
 
  private:
+  // Of the bar, table frame.
+  [[nodiscard]] Vec3 direction_at(const AxisPositions& q) const {
+    const bool on_tool = joint_.side > 0;
+    if (test_.hold == BarHold::rotor && !on_tool) return in_table_;
+    const Vec3 in_bed = test_.hold == BarHold::rotor
+                            ? turned_by(machine_.tool_chain(), test_.axis, q, in_rotor_)
+                            : in_bed_at_zero_;
+    return turned_back_by(machine_.work_chain(), q, in_bed);
+  }
   [[nodiscard]] SplitChain chain_at(const AxisPositions& q) const {
     return joint_.side > 0 ? split(machine_.tool_chain(), test_.axis, q,
                                    machine_.spindle_offset() - test_.tool_length * Vec3::UnitZ())
@@ -98,6 +129,7 @@ class BarPath {
   const Joint& joint_;
   Vec3 in_rotor_ = Vec3::UnitX();
   Vec3 in_bed_at_zero_ = Vec3::UnitX();
+  Vec3 in_table_ = Vec3::UnitX();  // of a bar that is held on the rotor of a table
 };
 
 std::optional<Diagnostic> impossible_rotary(const Machine& machine, const RotaryTest& test) {

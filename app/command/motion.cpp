@@ -11,6 +11,7 @@
 #include "app/motion/rotary_motion.hpp"
 #include "app/motion/trace_motion.hpp"
 #include "core/file_set.hpp"
+#include "report/page/motion_page.hpp"
 
 namespace frustum::app {
 namespace {
@@ -19,11 +20,14 @@ int show_motion(const Result<MotionAnswer>& answer, const AnswerOptions& options
                 const std::string& out) {
   if (!answer) return refuse(answer.error(), options);
   if (!out.empty()) {
-    std::vector<std::string> names{"motion.json"};
+    std::vector<std::string> names{"motion.json", "motion.html"};
     for (const auto& [name, bytes] : answer->files) names.push_back(name);
     auto set = FileSet::open(out, names);
     if (!set) return refuse(set.error(), options);
     set->add("motion.json", answer->document.json() + "\n");
+    report::MotionPage page = answer->page;
+    for (const Diagnostic& each : answer->warnings) page.remarks.push_back(each.message);
+    set->add("motion.html", report::motion_html(page));
     for (const auto& [name, bytes] : answer->files) set->add(name, bytes);
     if (const auto written = set->write(); !written) return refuse(written.error(), options);
   }
@@ -53,8 +57,12 @@ void add_machine_options(Command& command, MotionWords& words) {
   command.option("--resolution", words.resolution,
                  "Step of the readings, for example 0.1um (default: none)");
   command.option("--seed", words.seed, "Of the noise (default 1)");
-  command.option("--out", words.out, "Folder for motion.json");
+  command.option("--out", words.out, "Folder for motion.html, motion.json and trace.csv");
   add_answer_options(command, words);
+}
+
+void add_stroke_option(Command& command, MotionWords& words) {
+  command.option("--stroke", words.stroke, "Of the bar to either side, mm (default 1)");
 }
 
 // A test whose words become an answer.
@@ -70,6 +78,7 @@ void add_circle(Command& tests) {
   command.option("--plane", words->plane, "XY, YZ or ZX: the angle runs from the first letter")
       .required();
   command.option("--length", words->length, "Of the bar, mm (default 150)");
+  add_stroke_option(command, *words);
   command.option("--center", words->centre, "x,y,z of the table ball in the table frame, mm")
       .required();
   command.option("--at", words->at, "\"A=-90,C=0\": held rotary axes, degrees (default 0)");
@@ -97,6 +106,7 @@ void add_rotary(Command& tests) {
   command.option("--ball", words->ball, "x,y,z of the table ball in the table frame, mm")
       .required();
   command.option("--length", words->length, "Of the bar, mm (default 150)");
+  add_stroke_option(command, *words);
   command.option("--at", words->at, "\"A=-90\": the other rotary axes, degrees (default 0)");
   command.option("--angles", words->angles,
                  "0,30,60: degrees (default: 3600 midpoints of a full turn or of the travel)");
@@ -116,6 +126,7 @@ void add_cone_motion(Command& tests) {
   command.option("--radius", words->radius, "Of the circle of the tip, mm (default 40)");
   command.option("--center", words->centre,
                  "x,y,z of that circle in the table frame, mm (default -65,0,150)");
+  add_stroke_option(command, *words);
   command.option("--sense", words->sense,
                  "normal: along the surface normal (default); radial: in the plane of the path");
   command.option("--angles", words->angles,
@@ -184,7 +195,7 @@ void add_trace(Command& tests) {
                  "From,to in degrees: the arc over which times are spread (default 0,360)");
   command.option("--stroke", words->stroke, "Of the bar to either side, mm (default 1)");
   command.option("--axis", words->axis, "The axis of a line");
-  command.option("--out", words->out, "Folder for motion.json");
+  command.option("--out", words->out, "Folder for motion.html, motion.json and trace.csv");
   add_answer_options(command, *words);
   command.footer("Example: frustum motion trace measured.csv --plane XY --length 150");
   runs_test(command, words, trace_answer);

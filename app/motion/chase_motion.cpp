@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "app/view/text_table.hpp"
 #include "core/decimal.hpp"
 #include "instruments/approach.hpp"
@@ -39,6 +42,31 @@ std::string vectors_text(const std::vector<instruments::TestPose>& poses,
   return table.text() + (left > 0 ? fmt::format("{} more poses: --json\n", left) : "");
 }
 
+// Arrows at the angle of the axis next to the table, a colour for each position of the other.
+void draw_vectors(MotionAnswer& answer, const std::vector<instruments::TestPose>& poses,
+                  const std::vector<Vec3>& vectors, const kinematics::Machine& machine) {
+  using kinematics::AxisLetter;
+  const bool has_c = machine.joint(AxisLetter::C) != nullptr;
+  const AxisLetter round = has_c ? AxisLetter::C : AxisLetter::B;
+  const AxisLetter tilt = machine.joint(AxisLetter::A) != nullptr ? AxisLetter::A : AxisLetter::B;
+  report::MotionTable table{.heading = "Displacements, frame of the table",
+                            .columns = {"pose", ">x um", ">y um", ">z um"}};
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
+    const Vec3 um = vectors[i] * kUmPerMm;
+    const std::string name =
+        fmt::format("{} {:g}°", to_char(tilt), poses[i].at.q[tilt] * kDegPerRad);
+    auto series = std::ranges::find(answer.page.arrows, name, &report::ArrowSeries::name);
+    if (series == answer.page.arrows.end()) {
+      series = answer.page.arrows.insert(series, {name, {}});
+    }
+    series->arrows.push_back({poses[i].at.q[round], um.x(), um.y()});
+    table.rows.push_back(
+        {fmt::format("{}, {} {:g}°", name, to_char(round), poses[i].at.q[round] * kDegPerRad),
+         fixed_decimal(um.x(), 3), fixed_decimal(um.y(), 3), fixed_decimal(um.z(), 3)});
+  }
+  answer.page.tables.push_back(std::move(table));
+}
+
 }  // namespace
 
 Result<MotionAnswer> chase_answer(const ChaseWords& words) {
@@ -56,8 +84,7 @@ Result<MotionAnswer> chase_answer(const ChaseWords& words) {
       instruments::displacements(actual, instruments::with_approach(*test, setup->errors).poses,
                                  setup->setup),
       0);
-  MotionAnswer answer{.document = document_head("chase", *setup),
-                      .text = text_head("R-test", *setup)};
+  MotionAnswer answer = answer_of("chase", "R-test", *setup);
   answer.document["table_ball_mm"] = coordinates(*ball);
   Lists list;
   double squares = 0.0;
@@ -69,6 +96,7 @@ Result<MotionAnswer> chase_answer(const ChaseWords& words) {
   answer.document["displacement_um"] = list;
   answer.document["axes"] = axes_of(setup->machine, test->poses);
   answer.document["evaluation"] = Document{{"rms_um", rms}};
+  draw_vectors(answer, test->poses, vectors, setup->machine);
   answer.text += vectors_text(test->poses, vectors, setup->machine);
   answer.text += fmt::format("root mean square {:.3f} um, in the frame of the table\n", rms);
   const auto errors = instruments::location_unknowns(setup->machine);

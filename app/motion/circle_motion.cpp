@@ -6,6 +6,7 @@
 #include "core/constants.hpp"
 #include "instruments/approach.hpp"
 #include "instruments/circle_test.hpp"
+#include "instruments/reach.hpp"
 #include "instruments/readings.hpp"
 #include "instruments/sample_angles.hpp"
 
@@ -61,11 +62,13 @@ Result<MotionAnswer> circle_answer(const CircleWords& words) {
     auto readings =
         instruments::shown(setup->instrument, instruments::bar_readings(actual, run, setup->setup),
                            static_cast<std::uint32_t>(sense));
+    if (auto problem = instruments::beyond_stroke(run, readings, words.stroke, "phi")) {
+      return *std::move(problem);
+    }
     traces.push_back({sense, circle->angles, std::move(readings)});
     if (sense == Sense::ccw) ccw = *std::move(test);
   }
-  MotionAnswer answer{.document = document_head("circle", *setup),
-                      .text = text_head("Circle in " + words.plane, *setup)};
+  MotionAnswer answer = answer_of("circle", "Circle in " + words.plane, *setup);
   answer.document["plane"] = words.plane;
   answer.document["length_mm"] = circle->length;
   answer.document["center_mm"] = coordinates(circle->centre);
@@ -74,6 +77,7 @@ Result<MotionAnswer> circle_answer(const CircleWords& words) {
   answer.document["ccw_um"] = in_um(traces[0].deviation);
   answer.document["cw_um"] = in_um(traces[1].deviation);
   answer.document["axes"] = axes_of(setup->machine, ccw.poses);
+  answer.files["trace.csv"] = circle_csv(traces, circle->plane, circle->length);
   add_circle_evaluation(answer, traces, circle->length, circle->plane);
   const auto errors = instruments::location_unknowns(setup->machine);
   const std::vector gains{

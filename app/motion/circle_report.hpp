@@ -18,4 +18,8 @@ void add_circle_evaluation(MotionAnswer& answer,
                            const std::vector<instruments::CircleTrace>& traces, double length,
                            instruments::Plane plane);
 
+// The traces as `frustum motion trace` reads them.
+[[nodiscard]] std::string circle_csv(const std::vector<instruments::CircleTrace>& traces,
+                                     instruments::Plane plane, double length);
+
 }  // namespace frustum::app

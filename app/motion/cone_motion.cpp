@@ -6,6 +6,7 @@
 #include "core/constants.hpp"
 #include "instruments/approach.hpp"
 #include "instruments/cone_test.hpp"
+#include "instruments/reach.hpp"
 #include "instruments/readings.hpp"
 #include "instruments/sample_angles.hpp"
 
@@ -49,8 +50,10 @@ Result<MotionAnswer> cone_answer(const ConeMotionWords& words) {
       instruments::bar_readings(actual, instruments::with_approach(*test, setup->errors),
                                 setup->setup),
       0);
-  MotionAnswer answer{.document = document_head("cone", *setup),
-                      .text = text_head(fmt::format("Cone path, bar {}", words.sense), *setup)};
+  if (auto problem = instruments::beyond_stroke(*test, readings, words.stroke, "phi")) {
+    return *std::move(problem);
+  }
+  MotionAnswer answer = answer_of("cone", fmt::format("Cone path, bar {}", words.sense), *setup);
   answer.document["sense"] = words.sense;
   answer.document["cone_angle_deg"] = words.cone_angle;
   answer.document["inclination_deg"] = words.inclination;

@@ -61,6 +61,34 @@ std::string positioning_text(const std::vector<double>& targets, const Positioni
   return table.text() + "\n" + values.text();
 }
 
+void draw_positioning(MotionAnswer& answer, const std::vector<double>& targets,
+                      const Positioning& p) {
+  report::TraceChart chart{.title = "Means of the runs with bands of two standard deviations",
+                           .along_title = "target, mm",
+                           .value_title = "deviation, µm"};
+  for (const auto* side : {&p.up, &p.down}) {
+    std::vector<double> band = in_um(side->sd);
+    for (double& each : band) each *= 2.0;
+    chart.lines.push_back({.name = side == &p.up ? "up" : "down",
+                           .along = targets,
+                           .value = in_um(side->mean),
+                           .half_width = std::move(band),
+                           .dots = true});
+  }
+  answer.page.charts.push_back(std::move(chart));
+  const auto number = [](double mm) { return fixed_decimal(mm * kUmPerMm, 3); };
+  answer.page.tables.push_back(
+      {.heading = "Values",
+       .columns = {"um", ">both", ">up", ">down"},
+       .rows = {{"A accuracy", number(p.accuracy), number(p.up.accuracy), number(p.down.accuracy)},
+                {"R repeatability", number(p.repeatability), number(p.up.repeatability),
+                 number(p.down.repeatability)},
+                {"E systematic deviation", number(p.systematic), number(p.up.systematic),
+                 number(p.down.systematic)},
+                {"M mean bidirectional", number(p.mean_range), "", ""},
+                {"B reversal", number(p.largest_reversal), "", ""}}});
+}
+
 // Displacements of one run, by target.
 std::vector<Vec3> run_of(const MotionSetup& setup, const kinematics::ForwardChain& actual,
                          const LineTest& line, RunDirection direction, std::uint32_t number) {
@@ -99,6 +127,7 @@ std::optional<Diagnostics> add_positioning(MotionAnswer& answer, const std::vect
   const auto found = instruments::positioning(up, down);
   if (!found) return found.error();
   answer.document["evaluation"] = values_of(*found);
+  draw_positioning(answer, targets, *found);
   answer.text += positioning_text(targets, *found);
   return std::nullopt;
 }
@@ -133,8 +162,7 @@ Result<MotionAnswer> line_answer(const LineWords& words) {
       }
     }
   }
-  MotionAnswer answer{.document = document_head("line", *setup),
-                      .text = text_head(fmt::format("Laser along {}", words.axis), *setup)};
+  MotionAnswer answer = answer_of("line", fmt::format("Laser along {}", words.axis), *setup);
   answer.document["axis"] = words.axis;
   answer.document["runs"] = static_cast<std::uint64_t>(words.runs);
   answer.document["targets_mm"] = *targets;
@@ -176,9 +204,11 @@ Result<MotionAnswer> diagonal_answer(const DiagonalWords& words) {
       {.box = *box, .points = words.points, .held = *held, .tool_length = setup->tool_length});
   if (!lines) return lines.error();
   const kinematics::ForwardChain actual(setup->machine, setup->errors, setup->tool_length);
-  MotionAnswer answer{.document = document_head("diagonal", *setup),
-                      .text = text_head("Diagonals", *setup)};
+  MotionAnswer answer = answer_of("diagonal", "Diagonals", *setup);
   Document readings, lengths;
+  report::TraceChart chart{.title = "Readings along the diagonals",
+                           .along_title = "length along the diagonal, mm",
+                           .value_title = "reading, µm"};
   TextTable table({"diagonal", "length mm", "middle um", "end um"});
   const auto errors = instruments::location_unknowns(setup->machine);
   std::vector<instruments::ReadingGains> gains;
@@ -189,6 +219,8 @@ Result<MotionAnswer> diagonal_answer(const DiagonalWords& words) {
     const auto seen = instruments::from_first(instruments::shown(
         setup->instrument, instruments::line_readings(actual, run, setup->setup), number++));
     readings[signs] = in_um(seen);
+    chart.lines.push_back({.name = signs, .along = {}, .value = in_um(seen), .dots = true});
+    for (const auto& pose : line.poses) chart.lines.back().along.push_back(pose.parameter);
     lengths[signs] = line.poses.back().parameter;
     table.row({signs, fmt::format("{:.3f}", line.poses.back().parameter),
                fixed_decimal(seen[seen.size() / 2] * kUmPerMm, 3),
@@ -199,6 +231,7 @@ Result<MotionAnswer> diagonal_answer(const DiagonalWords& words) {
   answer.document["lengths_mm"] = lengths;
   answer.document["diagonals"] = readings;
   answer.document["evaluation"] = {};
+  answer.page.charts.push_back(std::move(chart));
   answer.text += table.text();
   answer.text += "Equal diagonals prove nothing: errors may cancel on all of them.\n";
   add_told(answer, instruments::told_by(errors, gains, instruments::SpindleBall::unknown));

@@ -41,34 +41,52 @@ std::vector<double> parameters_of(const instruments::MotionTest& test) {
   return parameters;
 }
 
-Document document_head(const std::string& test, const MotionSetup& setup) {
+MotionAnswer answer_of(const std::string& test, const std::string& title,
+                       const MotionSetup& setup) {
   Document errors;
-  for (const auto& entry : setup.entries) errors[entry.name] = entry.written;
-  const instruments::SetupErrors& off = setup.setup;
-  return {{"schema", "frustum/motion/1"},
-          {"test", test},
-          {"machine", setup.machine.name()},
-          {"structure", setup.machine.structure()},
-          {"tool_length_mm", setup.tool_length},
-          {"errors", errors},
-          {"setup_um", Document{{"ball", coordinates(off.ball, kUmPerMm)},
-                                {"table_ball", coordinates(off.table_ball, kUmPerMm)},
-                                {"length", off.length * kUmPerMm}}},
-          {"noise_um", setup.instrument.noise * kUmPerMm},
-          {"resolution_um", setup.instrument.resolution * kUmPerMm},
-          {"seed", setup.instrument.seed}};
-}
-
-std::string text_head(const std::string& test, const MotionSetup& setup) {
-  std::string errors;
+  std::string written;
   for (const auto& entry : setup.entries) {
-    errors += fmt::format("{}{} = {}", errors.empty() ? "" : "; ", entry.name, entry.written);
+    errors[entry.name] = entry.written;
+    written += fmt::format("{}{} = {}", written.empty() ? "" : "; ", entry.name, entry.written);
   }
-  return fmt::format("{} on {}, {}\n", test, setup.machine.name(),
-                     errors.empty() ? "no errors" : errors);
+  if (written.empty()) written = "no errors";
+  const instruments::SetupErrors& off = setup.setup;
+  const instruments::Instrument& instrument = setup.instrument;
+  MotionAnswer answer{
+      .document = {{"schema", "frustum/motion/1"},
+                   {"test", test},
+                   {"machine", setup.machine.name()},
+                   {"structure", setup.machine.structure()},
+                   {"tool_length_mm", setup.tool_length},
+                   {"errors", errors},
+                   {"setup_um", Document{{"ball", coordinates(off.ball, kUmPerMm)},
+                                         {"table_ball", coordinates(off.table_ball, kUmPerMm)},
+                                         {"length", off.length * kUmPerMm}}},
+                   {"noise_um", instrument.noise * kUmPerMm},
+                   {"resolution_um", instrument.resolution * kUmPerMm},
+                   {"seed", instrument.seed}},
+      .text = fmt::format("{} on {}, {}\n", title, setup.machine.name(), written)};
+  const auto um = [](const Vec3& v) {
+    return fmt::format("{:g}, {:g}, {:g} um", v.x() * kUmPerMm, v.y() * kUmPerMm, v.z() * kUmPerMm);
+  };
+  answer.page.title = title;
+  answer.page.facts = {{"Machine", setup.machine.title()},
+                       {"Structure", setup.machine.structure()},
+                       {"Errors", written},
+                       {"Spindle ball off", um(off.ball)},
+                       {"Table ball off", um(off.table_ball)},
+                       {"Bar longer by", fmt::format("{:g} um", off.length * kUmPerMm)},
+                       {"Tool length", fmt::format("{:g} mm", setup.tool_length)}};
+  if (instrument.noise > 0.0) {
+    answer.page.facts.push_back(
+        {"Noise", fmt::format("{:g} um, seed {}", instrument.noise * kUmPerMm, instrument.seed)});
+  }
+  return answer;
 }
 
 void add_told(MotionAnswer& answer, const instruments::Told& told) {
+  answer.page.told = told.told;
+  answer.page.not_told = told.not_told;
   answer.document["told"] = told.told;
   answer.document["not_told"] = told.not_told;
   answer.text += fmt::format(

@@ -12,20 +12,22 @@
 #include "app/motion/motion_words.hpp"
 #include "instruments/motion_test.hpp"
 #include "instruments/observability.hpp"
+#include "report/page/motion_page.hpp"
 
 namespace frustum::app {
 
 struct MotionAnswer {
   Document document{};
   std::string text{};
+  report::MotionPage page{};
   Diagnostics warnings{};
   std::map<std::string, std::string> files{};  // of --out, besides the document
 };
 
-// Schema, test, machine, errors, set-up.
-[[nodiscard]] Document document_head(const std::string& test, const MotionSetup& setup);
-// The same for a person: one line.
-[[nodiscard]] std::string text_head(const std::string& test, const MotionSetup& setup);
+// Begins the document with schema, test, machine, errors and set-up, text and page with the title
+// and the same.
+[[nodiscard]] MotionAnswer answer_of(const std::string& test, const std::string& title,
+                                     const MotionSetup& setup);
 
 // Millimetres and rad as they are shown.
 [[nodiscard]] std::vector<double> in_um(std::vector<double> mm);

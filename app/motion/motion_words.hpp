@@ -28,6 +28,7 @@ struct MotionWords : AnswerOptions {
   std::string at{};  // held axes: "A=-90"
   std::string noise{}, resolution{};
   std::uint64_t seed = 1;
+  double stroke = 1.0;  // of a bar, to either side, mm
   std::string out{};
 };
 

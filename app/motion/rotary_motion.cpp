@@ -4,6 +4,7 @@
 
 #include "app/motion/turn_report.hpp"
 #include "instruments/approach.hpp"
+#include "instruments/reach.hpp"
 #include "instruments/readings.hpp"
 #include "instruments/rotary_test.hpp"
 #include "instruments/sample_angles.hpp"
@@ -74,10 +75,13 @@ Result<MotionAnswer> rotary_answer(const RotaryWords& words) {
       instruments::bar_readings(actual, instruments::with_approach(*test, setup->errors),
                                 setup->setup),
       0);
-  MotionAnswer answer{.document = document_head("rotary", *setup),
-                      .text = text_head(fmt::format("Axis {}, {} bar held on the {}", words.axis,
-                                                    words.direction, name_of(rotary->hold)),
-                                        *setup)};
+  if (auto problem = instruments::beyond_stroke(*test, readings, words.stroke, words.axis)) {
+    return *std::move(problem);
+  }
+  MotionAnswer answer = answer_of("rotary",
+                                  fmt::format("Axis {}, {} bar held on the {}", words.axis,
+                                              words.direction, name_of(rotary->hold)),
+                                  *setup);
   answer.document["axis"] = words.axis;
   answer.document["direction"] = words.direction;
   answer.document["hold"] = name_of(rotary->hold);

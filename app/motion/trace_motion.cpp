@@ -56,6 +56,8 @@ void add_told_terms(MotionAnswer& answer, const CircleTraces& all) {
   }
   answer.document["told"] = told;
   answer.document["not_told"] = not_told;
+  answer.page.told = told;
+  answer.page.not_told = not_told;
   if (!not_told.empty()) {
     answer.text += "not told by these arcs:";
     for (const std::string& each : not_told) answer.text += " " + each;
@@ -74,6 +76,8 @@ Result<MotionAnswer> circle_trace(const TraceWords& words) {
                                           name_of(all->plane), all->length)};
   answer.document["plane"] = name_of(all->plane);
   answer.document["length_mm"] = all->length;
+  answer.page.title = fmt::format("Measured circle in {}", name_of(all->plane));
+  answer.page.facts = {{"Bar", fmt::format("{:g} mm", all->length)}};
   if (all->feed) answer.document["feed_mm_min"] = *all->feed;
   if (all->temperature) answer.document["temperature_degC"] = *all->temperature;
   for (const auto& trace : all->traces) {
@@ -97,6 +101,7 @@ Result<MotionAnswer> line_trace(const TraceWords& words) {
   if (!line) return line.error();
   MotionAnswer answer{.document = trace_head("line", words),
                       .text = fmt::format("Measured line along {}\n", words.axis)};
+  answer.page.title = fmt::format("Measured line along {}", words.axis);
   answer.document["axis"] = words.axis;
   answer.document["targets_mm"] = line->targets;
   if (auto problem = add_positioning(answer, line->targets, line->up, line->down)) {

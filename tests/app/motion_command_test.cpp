@@ -259,10 +259,13 @@ TEST_F(MotionSystem, RefusesWhatCannotBe) {
   EXPECT_EQ(fault("circle --machine iwf-bc --plane XY --center=0,0,150 --at X=5"), "axis-moved");
   EXPECT_EQ(fault("circle --machine iwf-bc --plane XY --center=0,0,150 --setup \"bal=1,2,3\""),
             "unknown-choice");
-  EXPECT_EQ(fault("circle --machine iwf-bc --plane XY --center=0,0,150 --noise 3"), "wrong-quantity");
+  EXPECT_EQ(fault("circle --machine iwf-bc --plane XY --center=0,0,150 --noise 3"),
+            "wrong-quantity");
   EXPECT_EQ(fault("circle --machine iwf-bc --plane XY --center=0,0,150 --feed 0"), "out-of-range");
   EXPECT_EQ(fault("circle --machine iwf-bc --plane XY --center=0,0,150 --angles=0,x"),
             "not-a-number");
+  EXPECT_EQ(fault("circle --machine iwf-bc --plane XY --center=0,0,150 --error \"EXX=linear 4mm\""),
+            "stroke-exceeded");
   EXPECT_EQ(fault("cone --machine iwf-bc --cone-angle 95"), "out-of-range");
   EXPECT_EQ(fault("cone --machine iwf-bc --radius 4000"), "axis-overtravel");
   EXPECT_EQ(fault("chase --machine zx-yac --ball 100,0,100 --at \"A=-150,C=0\""),
@@ -280,6 +283,29 @@ TEST_F(MotionSystem, RefusesWhatCannotBe) {
   EXPECT_EQ(fault("trace l.csv"), "length-unknown");
   EXPECT_EQ(run("motion").exit_code, 2);
   EXPECT_EQ(run("motion circel").exit_code, 2);
+}
+
+TEST_F(MotionSystem, WritesPageDocumentAndTrace) {
+  const std::string circle =
+      "circle --machine iwf-bc --plane XY --center 0,0,150 "
+      "--error EC0Y=30urad --out circle";
+  const json bar = document(circle);
+  ASSERT_FALSE(bar.is_null());
+  EXPECT_EQ(json::parse(read(folder_ / "circle/motion.json")), bar);
+  EXPECT_NE(read(folder_ / "circle/motion.html").find("class=\"trace dashed"), std::string::npos);
+  const json trace = document("trace circle/trace.csv --out again");
+  ASSERT_FALSE(trace.is_null());
+  EXPECT_NEAR(trace["evaluation"]["G_bi_mz"].get<double>(),
+              bar["evaluation"]["G_bi_mz"].get<double>(), 1e-9);
+  for (const char* test :
+       {"rotary --machine zx-yac --axis C --direction radial --ball 100,0,100",
+        "cone --machine iwf-bc", "chase --machine zx-yac --ball 100,0,100 --at \"A=-90;A=0,C=60\"",
+        "line --machine zx-yac --axis X --targets=-100,0,100",
+        "diagonal --machine iwf-bc --box X=-200:200,Y=-200:200"}) {
+    fs::remove_all(folder_ / "out");
+    EXPECT_FALSE(document(std::string(test) + " --out out").is_null());
+    EXPECT_NE(read(folder_ / "out/motion.html").find("<figure"), std::string::npos) << test;
+  }
 }
 
 TEST_F(MotionSystem, AnswersAsItIsAsked) {
