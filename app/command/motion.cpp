@@ -4,11 +4,7 @@
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
-#include "app/motion/chase_motion.hpp"
-#include "app/motion/circle_motion.hpp"
-#include "app/motion/cone_motion.hpp"
-#include "app/motion/line_motion.hpp"
-#include "app/motion/rotary_motion.hpp"
+#include "app/motion/test_file.hpp"
 #include "app/motion/trace_motion.hpp"
 #include "core/file_set.hpp"
 #include "report/page/motion_page.hpp"
@@ -57,7 +53,9 @@ void add_machine_options(Command& command, MotionWords& words) {
   command.option("--resolution", words.resolution,
                  "Step of the readings, for example 0.1um (default: none)");
   command.option("--seed", words.seed, "Of the noise (default 1)");
-  command.option("--out", words.out, "Folder for motion.html, motion.json and trace.csv");
+  command.option("--out", words.out,
+                 "Folder for motion.html, motion.json, trace.csv and test.toml, which `motion run` "
+                 "runs again");
   add_answer_options(command, words);
 }
 
@@ -65,10 +63,16 @@ void add_stroke_option(Command& command, MotionWords& words) {
   command.option("--stroke", words.stroke, "Of the bar to either side, mm (default 1)");
 }
 
-// A test whose words become an answer.
-template <typename Words, typename Answer>
-void runs_test(Command& command, const std::shared_ptr<Words>& words, Answer answer) {
-  command.runs([words, answer] { return show_motion(answer(*words), *words, words->out); });
+// A test whose words become an answer, and a file by which it can be run again.
+template <typename Words>
+void runs_test(Command& command, const std::shared_ptr<Words>& words) {
+  command.runs([words] {
+    auto answer = answer_of(TestWords(*words));
+    if (answer && !words->out.empty()) {
+      answer->files["test.toml"] = test_toml(*words, words->out);
+    }
+    return show_motion(answer, *words, words->out);
+  });
 }
 
 void add_circle(Command& tests) {
@@ -89,7 +93,7 @@ void add_circle(Command& tests) {
   command.footer(
       "Example: frustum motion circle --machine iwf-bc --plane XY --length 150 --center 0,0,150 "
       "--error EC0Y=30urad");
-  runs_test(command, words, circle_answer);
+  runs_test(command, words);
 }
 
 void add_rotary(Command& tests) {
@@ -113,7 +117,7 @@ void add_rotary(Command& tests) {
   command.footer(
       "Example: frustum motion rotary --machine zx-yac --axis C --direction radial --ball "
       "100,0,100 --length 150 --error EX0C=10um");
-  runs_test(command, words, rotary_answer);
+  runs_test(command, words);
 }
 
 void add_cone_motion(Command& tests) {
@@ -134,7 +138,7 @@ void add_cone_motion(Command& tests) {
   command.footer(
       "Example: frustum motion cone --machine iwf-bc --cone-angle 45 --inclination 30 --radius 40 "
       "--center=-65,0,150 --sense normal --error EX0C=10um");
-  runs_test(command, words, cone_answer);
+  runs_test(command, words);
 }
 
 void add_chase(Command& tests) {
@@ -147,7 +151,7 @@ void add_chase(Command& tests) {
   command.footer(
       "Example: frustum motion chase --machine zx-yac --ball 100,0,100 --at \"A=-90,C=0;A=0,C=60\" "
       "--error EX0C=10um");
-  runs_test(command, words, chase_answer);
+  runs_test(command, words);
 }
 
 void add_line(Command& tests) {
@@ -162,7 +166,7 @@ void add_line(Command& tests) {
   command.footer(
       "Example: frustum motion line --machine zx-yac --axis X --targets=-180,-97,-31,42,111,178 "
       "--error \"EXX=linear 10um + reversal 3um\"");
-  runs_test(command, words, line_answer);
+  runs_test(command, words);
 }
 
 void add_diagonal(Command& tests) {
@@ -176,7 +180,29 @@ void add_diagonal(Command& tests) {
   command.footer(
       "Example: frustum motion diagonal --machine iwf-bc --box \"X=-200:200,Y=-150:150,Z=0:300\" "
       "--error EC0Y=20urad");
-  runs_test(command, words, diagonal_answer);
+  runs_test(command, words);
+}
+
+struct RunWords : AnswerOptions {
+  std::string file{};
+  ErrorWords errors{};
+  std::string out{};
+};
+
+void add_motion_run(Command& tests) {
+  auto words = std::make_shared<RunWords>();
+  Command command = tests.command("run", "A motion test of a file, as --out writes one");
+  command.option("file", words->file, "test.toml").required();
+  add_error_options(command, words->errors);
+  command.option("--out", words->out, "Folder for motion.html, motion.json and trace.csv");
+  add_answer_options(command, *words);
+  command.footer("Example: frustum motion run ballbar/test.toml --error EC0Y=30urad");
+  command.runs([words] {
+    auto test = read_test_file(words->file);
+    if (!test) return refuse(test.error(), *words);
+    common_words(*test).errors = words->errors;
+    return show_motion(answer_of(*test), *words, words->out);
+  });
 }
 
 void add_trace(Command& tests) {
@@ -195,10 +221,10 @@ void add_trace(Command& tests) {
                  "From,to in degrees: the arc over which times are spread (default 0,360)");
   command.option("--stroke", words->stroke, "Of the bar to either side, mm (default 1)");
   command.option("--axis", words->axis, "The axis of a line");
-  command.option("--out", words->out, "Folder for motion.html, motion.json and trace.csv");
+  command.option("--out", words->out, "Folder for motion.html and motion.json");
   add_answer_options(command, *words);
   command.footer("Example: frustum motion trace measured.csv --plane XY --length 150");
-  runs_test(command, words, trace_answer);
+  command.runs([words] { return show_motion(trace_answer(*words), *words, words->out); });
 }
 
 }  // namespace
@@ -213,6 +239,7 @@ void add_motion(Command& program) {
   add_chase(tests);
   add_line(tests);
   add_diagonal(tests);
+  add_motion_run(tests);
   add_trace(tests);
 }
 

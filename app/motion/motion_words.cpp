@@ -73,7 +73,8 @@ Result<MotionSetup> motion_setup(const MotionWords& words) {
   }
   auto machine = load_machine(words.machine, ".");
   if (!machine) return machine.error();
-  auto entries = gather_errors({}, words.errors, drawn_by(words.errors, std::nullopt), *machine);
+  auto entries =
+      gather_errors(words.of_file, words.errors, drawn_by(words.errors, std::nullopt), *machine);
   if (!entries) return entries.error();
   auto errors = kinematics::resolve(*machine, *entries);
   if (!errors) return errors.error();

@@ -23,7 +23,8 @@ namespace frustum::app {
 struct MotionWords : AnswerOptions {
   std::string machine{};
   ErrorWords errors{};
-  std::string setup{};  // "ball=10,-5,3;table_ball=6,-4,2;length=2"
+  kinematics::ErrorList of_file{};  // errors of a test file, which those words override
+  std::string setup{};              // "ball=10,-5,3;table_ball=6,-4,2;length=2"
   double tool_length = 0.0;
   std::string at{};  // held axes: "A=-90"
   std::string noise{}, resolution{};

@@ -264,7 +264,7 @@ TEST_F(MotionSystem, RefusesWhatCannotBe) {
   EXPECT_EQ(fault("circle --machine iwf-bc --plane XY --center=0,0,150 --feed 0"), "out-of-range");
   EXPECT_EQ(fault("circle --machine iwf-bc --plane XY --center=0,0,150 --angles=0,x"),
             "not-a-number");
-  EXPECT_EQ(fault("circle --machine iwf-bc --plane XY --center=0,0,150 --error \"EXX=linear 4mm\""),
+  EXPECT_EQ(fault("circle --machine iwf-bc --plane XY --center=0,0,150 --error \"EXX=linear 8mm\""),
             "stroke-exceeded");
   EXPECT_EQ(fault("cone --machine iwf-bc --cone-angle 95"), "out-of-range");
   EXPECT_EQ(fault("cone --machine iwf-bc --radius 4000"), "axis-overtravel");
@@ -306,6 +306,34 @@ TEST_F(MotionSystem, WritesPageDocumentAndTrace) {
     EXPECT_FALSE(document(std::string(test) + " --out out").is_null());
     EXPECT_NE(read(folder_ / "out/motion.html").find("<figure"), std::string::npos) << test;
   }
+}
+
+// The file that --out writes gives the same document again.
+TEST_F(MotionSystem, RunsATestAgainFromItsFile) {
+  const std::string common =
+      " --error \"EXX=linear 10um over -200mm..200mm\" --error EX0C=4um --noise 0.2um --seed 3 "
+      "--setup \"ball=10,-5,3;table_ball=6,-4,2;length=2\" --out out";
+  for (const char* test :
+       {"circle --machine iwf-bc --plane ZX --length 100 --center 0,0,150 --feed 1000",
+        "rotary --machine zx-yac --axis C --direction radial --ball 100,0,100 --at A=-30 "
+        "--angles 0,40,80,120,160,200",
+        "cone --machine iwf-bc --cone-angle 45 --inclination 30 --radius 40 --center=-65,0,150 "
+        "--sense radial",
+        "chase --machine zx-yac --ball 100,0,100 --at \"A=-90,C=5;A=0,C=60\"",
+        "line --machine zx-yac --axis X --targets=-100,0.5,100 --runs 3 --at Y=20",
+        "diagonal --machine iwf-bc --box X=-200:200,Y=-200:200 --points 5 --at Z=30"}) {
+    fs::remove_all(folder_ / "out");
+    const json first = document(test + common);
+    ASSERT_FALSE(first.is_null()) << test;
+    EXPECT_EQ(document("run out/test.toml"), first) << read(folder_ / "out/test.toml");
+    const json other = document("run out/test.toml --error EX0C=9um");
+    EXPECT_EQ(other["errors"]["EX0C"], "9um");
+  }
+  write("bad.toml", "test = \"circle\"\nmachine = \"iwf-bc\"\nplane = \"XY\"\ncentre = [0,0,1]\n");
+  const Outcome bad = run("motion run bad.toml");
+  EXPECT_EQ(bad.exit_code, 2);
+  EXPECT_NE(bad.err.find("bad.toml:4"), std::string::npos) << bad.err;
+  EXPECT_NE(bad.err.find("center"), std::string::npos) << bad.err;
 }
 
 TEST_F(MotionSystem, AnswersAsItIsAsked) {

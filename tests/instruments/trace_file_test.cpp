@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 
+#include "core/random.hpp"
 #include "instruments/circle_trace_file.hpp"
+#include "instruments/instrument.hpp"
 #include "instruments/line_trace_file.hpp"
 
 namespace frustum::instruments {
@@ -159,6 +162,56 @@ TEST_F(TraceFiles, FaultsOfLinesHaveTheirLine) {
   EXPECT_EQ(line_fault(head + "1,up,0,0\n1,down,0,0\n1,up,5,0\n"), "target-missing:1");
   EXPECT_EQ(line_fault(head + "1,up,0,0\n1,down,0,0\n2,down,0,0\n"), "too-few-runs:1");
   EXPECT_EQ(line_fault("run,direction,target_mm\n1,up,0\n"), "missing-column:1");
+}
+
+// A machine that the evaluation does not know, a noisy bar, three ways to write its trace: squareness
+// and backlash are within their stated intervals as often as they should be.
+TEST_F(TraceFiles, BlindTracesAreWithinTheirIntervals) {
+  const RandomKey key{.seed = 2024};
+  constexpr int kMachines = 300;
+  std::array<int, 3> held{};
+  for (int n = 0; n < kMachines; ++n) {
+    const auto draw = static_cast<std::uint64_t>(n) * 10;
+    const double square = 30.0 * normal(key, draw), first = 5.0 * normal(key, draw + 1),
+                 noise = 0.1 + 0.4 * uniform(key, draw + 2);
+    const auto reading = [&](double degrees, double w) {
+      const double phi = degrees * kRadPerDeg, c = std::cos(phi), s = std::sin(phi);
+      const double head = s > 0.0 ? -w : w;
+      return -0.075 * square * std::sin(2.0 * phi) - 0.5 * first * head * c + 2.0 * c;
+    };
+    const Instrument bar{.noise = noise, .seed = static_cast<std::uint64_t>(n)};
+    std::string text = n % 3 == 0   ? "run,angle_deg,radial_um\n"
+                       : n % 3 == 1 ? "angle_deg;run;radial_um\n"
+                                    : "# radius 150\nrun\ttime_s\tlength_mm\n";
+    for (const double w : {1.0, -1.0}) {
+      std::vector<double> um;
+      for (int i = 0; i <= 360; ++i) um.push_back(reading(w > 0.0 ? i : 360 - i, w));
+      um = shown(bar, um, w > 0.0 ? 0 : 1);
+      for (int i = 0; i <= 360; ++i) {
+        const double r = um[static_cast<std::size_t>(i)];
+        const int degrees = w > 0.0 ? i : 360 - i;
+        const char* run = w > 0.0 ? "ccw" : "cw";
+        text += n % 3 == 0   ? fmt::format("{},{},{:.6f}\n", run, degrees, r)
+                : n % 3 == 1 ? with_commas(fmt::format("{};{};{:.6f}\n", degrees, run, r))
+                             : fmt::format("{}\t{}\t{:.9f}\n", run, 0.1 * i, 150.0 + r / 1e3);
+      }
+    }
+    const auto traces = read(text);
+    ASSERT_TRUE(traces) << to_string(traces.error().front());
+    const auto found = signature(traces->traces, traces->length);
+    ASSERT_TRUE(found);
+    const auto within = [&](SignatureTerm term, double truth, double unit) {
+      const auto k = static_cast<std::size_t>(term);
+      return std::abs(found->value[k] * unit - truth) <= 1.96 * found->sd[k] * unit;
+    };
+    held[0] += within(SignatureTerm::square, square, 1e6) ? 1 : 0;
+    held[1] += within(SignatureTerm::backlash_1, first, 1e3) ? 1 : 0;
+    held[2] += within(SignatureTerm::backlash_2, 0.0, 1e3) ? 1 : 0;
+  }
+  for (const int each : held) {  // 95 % of 300 is 285, with a standard deviation of 4
+    EXPECT_GE(each, 273);
+    EXPECT_LE(each, 297);
+  }
 }
 
 }  // namespace
