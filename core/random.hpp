@@ -23,7 +23,8 @@ enum class RandomPurpose : std::uint32_t {
   cmm_scan = 14,
   cmm_qualification = 15,
   cmm_drift = 16,
-  cmm_thermal = 17
+  cmm_thermal = 17,
+  instrument_reading = 18
 };
 
 struct RandomKey {

@@ -46,6 +46,7 @@ void add_machines(Command& program);
 void add_errors(Command& program);
 void add_volumetric(Command& program);
 void add_study(Command& program);
+void add_motion(Command& program);
 
 // Kinds of test pieces: commands of `program`.
 void add_cone(Command& kinds);

@@ -11,10 +11,8 @@ namespace {
 // mm or degrees: a thousand kilometres. Farther away numbers are more than 0.1 um apart.
 constexpr double kFarthest = 1e9;
 
-}  // namespace
-
-Result<std::vector<double>> numbers_of(const std::string& text, std::size_t count,
-                                       const std::string& what) {
+Result<std::vector<double>> parsed(const std::string& text, const std::string& what,
+                                   const std::string& expected) {
   std::vector<double> numbers;
   std::size_t start = 0;
   while (start <= text.size()) {
@@ -28,7 +26,7 @@ Result<std::vector<double>> numbers_of(const std::string& text, std::size_t coun
       return error(
           "not-a-number"_id,
           fmt::format("'{}' in {} is not a number", text.substr(start, comma - start), what),
-          fmt::format("expected {} numbers separated by commas", count));
+          fmt::format("expected {} separated by commas", expected));
     }
     if (std::abs(value) > kFarthest) {
       return error("out-of-range"_id,
@@ -37,11 +35,23 @@ Result<std::vector<double>> numbers_of(const std::string& text, std::size_t coun
     numbers.push_back(value);
     start = comma + 1;
   }
-  if (numbers.size() != count) {
+  return numbers;
+}
+
+}  // namespace
+
+Result<std::vector<double>> numbers_of(const std::string& text, std::size_t count,
+                                       const std::string& what) {
+  auto numbers = parsed(text, what, fmt::format("{} numbers", count));
+  if (numbers && numbers->size() != count) {
     return error("number-count"_id,
-                 fmt::format("{} has {} numbers, expected {}", what, numbers.size(), count));
+                 fmt::format("{} has {} numbers, expected {}", what, numbers->size(), count));
   }
   return numbers;
+}
+
+Result<std::vector<double>> number_list(const std::string& text, const std::string& what) {
+  return parsed(text, what, "numbers");
 }
 
 }  // namespace frustum::app

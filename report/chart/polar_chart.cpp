@@ -90,6 +90,17 @@ void draw_ruler(SvgDrawing& drawing, const PolarScale& scale) {
   drawing.text({x(-scale.rings) - 10.0, kY + 4.0}, "deviation, µm", SvgAnchor::end);
 }
 
+// A point that does not follow on the one before breaks the line.
+std::vector<SvgPoint> line_of(const PolarRound& points, const PolarScale& scale) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<SvgPoint> line;
+  for (const PolarPoint& p : points) {
+    if (!p.follows) line.push_back({kNan, kNan});
+    line.push_back(around(scale.pixels(p.deviation), p.angle));
+  }
+  return line;
+}
+
 }  // namespace
 
 std::vector<PolarRound> polar_rounds(const metrology::CharacteristicResult& characteristic) {
@@ -151,13 +162,7 @@ std::string polar_figure(const metrology::CharacteristicResult& characteristic) 
   drawing.circle(kCentre, scale.pixels(high), "extreme");
   drawing.circle(kCentre, scale.pixels(low), "extreme");
   for (std::size_t k = 0; k < rounds.size(); ++k) {
-    std::vector<SvgPoint> line;
-    for (const PolarPoint& p : rounds[k]) {
-      constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-      if (!p.follows) line.push_back({kNan, kNan});
-      line.push_back(around(scale.pixels(p.deviation), p.angle));
-    }
-    drawing.polyline(line, series_class("trace", k));
+    drawing.polyline(line_of(rounds[k], scale), series_class("trace", k));
   }
   draw_ruler(drawing, scale);
   std::vector<std::string> names;
@@ -168,6 +173,35 @@ std::string polar_figure(const metrology::CharacteristicResult& characteristic) 
       "<figure class=\"polar\"><figcaption><b>{}</b><span class=\"scale\">{}</span>{}</figcaption>"
       "\n{}</figure>\n",
       html_text(characteristic.name), facts, series_key(names), drawing.html());
+}
+
+std::string polar_traces_figure(const std::string& title, const std::vector<PolarTrace>& traces) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const PolarTrace& trace : traces) {
+    for (const PolarPoint& p : trace.points) {
+      low = std::min(low, p.deviation);
+      high = std::max(high, p.deviation);
+    }
+  }
+  if (!(high >= low)) low = high = 0.0;
+  const PolarScale scale = scale_of(low, high);
+  const std::string facts =
+      fmt::format("from {} to {} µm, {} µm per division", fixed_text(low, 3), fixed_text(high, 3),
+                  tick_text(scale.division, scale.division));
+  SvgDrawing drawing(kWidth, kHeight, fmt::format("Polar chart of {}: {}", title, facts));
+  draw_grid(drawing, scale);
+  std::vector<std::string> names, marks;
+  for (std::size_t k = 0; k < traces.size(); ++k) {
+    drawing.polyline(line_of(traces[k].points, scale),
+                     series_class(traces[k].dashed ? "trace dashed" : "trace", k));
+    names.push_back(traces[k].name);
+    marks.emplace_back(traces[k].dashed ? "dashed" : "");
+  }
+  draw_ruler(drawing, scale);
+  return fmt::format(
+      "<figure class=\"polar\"><figcaption><b>{}</b><span class=\"scale\">{}</span>{}</figcaption>"
+      "\n{}</figure>\n",
+      html_text(title), facts, series_key(names, marks), drawing.html());
 }
 
 }  // namespace frustum::report

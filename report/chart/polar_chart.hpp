@@ -27,4 +27,14 @@ using PolarRound = std::vector<PolarPoint>;
 // A <figure>: name, peak to valley, division, a key where there are several rounds, the drawing.
 [[nodiscard]] std::string polar_figure(const metrology::CharacteristicResult& characteristic);
 
+// A trace about the nominal circle; dashed: fitted.
+struct PolarTrace {
+  std::string name{};
+  PolarRound points{};
+  bool dashed = false;
+};
+// A <figure> of several traces over one another: range, division, key, drawing.
+[[nodiscard]] std::string polar_traces_figure(const std::string& title,
+                                              const std::vector<PolarTrace>& traces);
+
 }  // namespace frustum::report

@@ -13,6 +13,7 @@ const std::map<std::string, Room>& rooms() {
          "interpret/moves", "interpret/cycles", "interpret/filters", "writing"}}},
       {"metrology", {2, {"fit", "points", "plan", "probing", "characteristic", "uncertainty"}}},
       {"kinematics", {3, {"model", "errors", "controller", "timing", "path"}}},
+      {"instruments", {4}},
       {"post", {4, {"planning", "comparing"}}},
       {"lint", {4}},
       {"cutter", {4, {"body", "sweep", "search"}}},
@@ -22,7 +23,7 @@ const std::map<std::string, Room>& rooms() {
       {"trials", {7, {"population"}}},
       {"calibration", {8, {"identify", "design", "compensate"}}},
       {"studies", {8, {"laws", "statistics", "engine", "samples", "answers"}}},
-      {"app", {9, {"job", "study", "view", "command"}}},
+      {"app", {9, {"job", "study", "view", "motion", "command"}}},
   };
   return kRooms;
 }

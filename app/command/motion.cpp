@@ -1,0 +1,246 @@
+// frustum motion: motion tests on the virtual machine, and measured traces.
+#include <iostream>
+#include <memory>
+
+#include "app/command/command_line.hpp"
+#include "app/command/commands.hpp"
+#include "app/motion/test_file.hpp"
+#include "app/motion/trace_motion.hpp"
+#include "core/file_set.hpp"
+#include "report/page/motion_page.hpp"
+
+namespace frustum::app {
+namespace {
+
+int show_motion(const Result<MotionAnswer>& answer, const AnswerOptions& options,
+                const std::string& out) {
+  if (!answer) return refuse(answer.error(), options);
+  if (!out.empty()) {
+    std::vector<std::string> names{"motion.json", "motion.html"};
+    for (const auto& [name, bytes] : answer->files) names.push_back(name);
+    auto set = FileSet::open(out, names);
+    if (!set) return refuse(set.error(), options);
+    set->add("motion.json", answer->document.json() + "\n");
+    report::MotionPage page = answer->page;
+    for (const Diagnostic& each : answer->warnings) page.remarks.push_back(each.message);
+    set->add("motion.html", report::motion_html(page));
+    for (const auto& [name, bytes] : answer->files) set->add(name, bytes);
+    if (const auto written = set->write(); !written) return refuse(written.error(), options);
+  }
+  print(std::cerr, answer->warnings);
+  if (options.json) {
+    std::cout << answer->document.json() << '\n';
+  } else if (!options.quiet) {
+    std::cout << answer->text;
+  }
+  return kDone;
+}
+
+void add_machine_options(Command& command, MotionWords& words) {
+  command
+      .option("machine,--machine", words.machine, "Machine file, or the name of a shipped machine")
+      .required();
+  add_error_options(command, words.errors);
+  command.option(
+      "--setup", words.setup,
+      "\"ball=10,-5,3;table_ball=6,-4,2;length=2\" (um): spindle ball off the tip, in the "
+      "frame of the tool; table ball off its place, in that of the table; bar longer than "
+      "nominal (default: none)");
+  command.option("--tool-length", words.tool_length,
+                 "mm from the gauge point to the spindle ball (default 0)");
+  command.option("--noise", words.noise,
+                 "Standard deviation of a reading, for example 0.3um (default: none)");
+  command.option("--resolution", words.resolution,
+                 "Step of the readings, for example 0.1um (default: none)");
+  command.option("--seed", words.seed, "Of the noise (default 1)");
+  command.option("--out", words.out,
+                 "Folder for motion.html, motion.json, trace.csv and test.toml, which `motion run` "
+                 "runs again");
+  add_answer_options(command, words);
+}
+
+void add_stroke_option(Command& command, MotionWords& words) {
+  command.option("--stroke", words.stroke, "Of the bar to either side, mm (default 1)");
+}
+
+// A test whose words become an answer, and a file by which it can be run again.
+template <typename Words>
+void runs_test(Command& command, const std::shared_ptr<Words>& words) {
+  command.runs([words] {
+    auto answer = answer_of(TestWords(*words));
+    if (answer && !words->out.empty()) {
+      answer->files["test.toml"] = test_toml(*words, words->out);
+    }
+    return show_motion(answer, *words, words->out);
+  });
+}
+
+void add_circle(Command& tests) {
+  auto words = std::make_shared<CircleWords>();
+  Command command = tests.command("circle", "Ball bar on a circle of two linear axes");
+  add_machine_options(command, *words);
+  command.option("--plane", words->plane, "XY, YZ or ZX: the angle runs from the first letter")
+      .required();
+  command.option("--length", words->length, "Of the bar, mm (default 150)");
+  add_stroke_option(command, *words);
+  command.option("--center", words->centre, "x,y,z of the table ball in the table frame, mm")
+      .required();
+  command.option("--at", words->at, "\"A=-90,C=0\": held rotary axes, degrees (default 0)");
+  command.option("--angles", words->angles,
+                 "0,30,60: degrees (default: 3600 midpoints of a full turn)");
+  command.option("--feed", words->feed,
+                 "mm/min: the axes lag behind by their servo gains (default: they follow at once)");
+  command.footer(
+      "Example: frustum motion circle --machine iwf-bc --plane XY --length 150 --center 0,0,150 "
+      "--error EC0Y=30urad");
+  runs_test(command, words);
+}
+
+void add_rotary(Command& tests) {
+  auto words = std::make_shared<RotaryWords>();
+  Command command = tests.command("rotary", "Ball bar while one rotary axis turns");
+  add_machine_options(command, *words);
+  command.option("--axis", words->axis, "The rotary axis that turns").required();
+  command.option("--direction", words->direction,
+                 "Of the bar: axial, radial (from the axis) or tangential");
+  command.option("--hold", words->hold,
+                 "rotor: the bar turns with the axis; bed: it keeps its direction in the bed "
+                 "(default: with which the tip stands still under tool centre point control: rotor "
+                 "for a table, bed for a head)");
+  command.option("--ball", words->ball, "x,y,z of the table ball in the table frame, mm")
+      .required();
+  command.option("--length", words->length, "Of the bar, mm (default 150)");
+  add_stroke_option(command, *words);
+  command.option("--at", words->at, "\"A=-90\": the other rotary axes, degrees (default 0)");
+  command.option("--angles", words->angles,
+                 "0,30,60: degrees (default: 3600 midpoints of a full turn or of the travel)");
+  command.footer(
+      "Example: frustum motion rotary --machine zx-yac --axis C --direction radial --ball "
+      "100,0,100 --length 150 --error EX0C=10um");
+  runs_test(command, words);
+}
+
+void add_cone_motion(Command& tests) {
+  auto words = std::make_shared<ConeMotionWords>();
+  Command command = tests.command("cone", "Ball bar on the five-axis path of the cone test");
+  add_machine_options(command, *words);
+  command.option("--cone-angle", words->cone_angle, "Half the apex angle, degrees (default 45)");
+  command.option("--inclination", words->inclination,
+                 "Of the cone against the table, degrees (default 30)");
+  command.option("--radius", words->radius, "Of the circle of the tip, mm (default 40)");
+  command.option("--center", words->centre,
+                 "x,y,z of that circle in the table frame, mm (default -65,0,150)");
+  add_stroke_option(command, *words);
+  command.option("--sense", words->sense,
+                 "normal: along the surface normal (default); radial: in the plane of the path");
+  command.option("--angles", words->angles,
+                 "0,30,60: phi, degrees (default: 3600 midpoints of a full turn)");
+  command.footer(
+      "Example: frustum motion cone --machine iwf-bc --cone-angle 45 --inclination 30 --radius 40 "
+      "--center=-65,0,150 --sense normal --error EX0C=10um");
+  runs_test(command, words);
+}
+
+void add_chase(Command& tests) {
+  auto words = std::make_shared<ChaseWords>();
+  Command command = tests.command("chase", "R-test: the tip stays at the table ball");
+  add_machine_options(command, *words);
+  command.option("--ball", words->ball, "x,y,z of the table ball in the table frame, mm")
+      .required();
+  command.option("--at", words->at, "\"A=-90,C=0;A=0,C=60\": rotary poses, degrees").required();
+  command.footer(
+      "Example: frustum motion chase --machine zx-yac --ball 100,0,100 --at \"A=-90,C=0;A=0,C=60\" "
+      "--error EX0C=10um");
+  runs_test(command, words);
+}
+
+void add_line(Command& tests) {
+  auto words = std::make_shared<LineWords>();
+  Command command =
+      tests.command("line", "Laser along an axis: accuracy, repeatability, straightness");
+  add_machine_options(command, *words);
+  command.option("--axis", words->axis, "X, Y or Z").required();
+  command.option("--targets", words->targets, "0,37,75: positions of the axis, mm").required();
+  command.option("--runs", words->runs, "In each direction (default 5)").within(2, 1000);
+  command.option("--at", words->at, "\"Y=100,Z=50\": the other axes, mm and degrees (default 0)");
+  command.footer(
+      "Example: frustum motion line --machine zx-yac --axis X --targets=-180,-97,-31,42,111,178 "
+      "--error \"EXX=linear 10um + reversal 3um\"");
+  runs_test(command, words);
+}
+
+void add_diagonal(Command& tests) {
+  auto words = std::make_shared<DiagonalWords>();
+  Command command = tests.command("diagonal", "Laser along the diagonals of a box or a face");
+  add_machine_options(command, *words);
+  command.option("--box", words->box, "\"X=-200:200,Y=-200:200,Z=100:400\" (mm); two axes: a face")
+      .required();
+  command.option("--points", words->points, "On each diagonal (default 11)").within(2, 100000);
+  command.option("--at", words->at, "\"Z=50,B=30\": the other axes, mm and degrees (default 0)");
+  command.footer(
+      "Example: frustum motion diagonal --machine iwf-bc --box \"X=-200:200,Y=-150:150,Z=0:300\" "
+      "--error EC0Y=20urad");
+  runs_test(command, words);
+}
+
+struct RunWords : AnswerOptions {
+  std::string file{};
+  ErrorWords errors{};
+  std::string out{};
+};
+
+void add_motion_run(Command& tests) {
+  auto words = std::make_shared<RunWords>();
+  Command command = tests.command("run", "A motion test of a file, as --out writes one");
+  command.option("file", words->file, "test.toml").required();
+  add_error_options(command, words->errors);
+  command.option("--out", words->out, "Folder for motion.html, motion.json and trace.csv");
+  add_answer_options(command, *words);
+  command.footer("Example: frustum motion run ballbar/test.toml --error EC0Y=30urad");
+  command.runs([words] {
+    auto test = read_test_file(words->file);
+    if (!test) return refuse(test.error(), *words);
+    common_words(*test).errors = words->errors;
+    return show_motion(answer_of(*test), *words, words->out);
+  });
+}
+
+void add_trace(Command& tests) {
+  auto words = std::make_shared<TraceWords>();
+  Command command = tests.command("trace", "What a measured trace of a ball bar or laser says");
+  command
+      .option(
+          "files", words->files,
+          "CSV: run,angle_deg,radial_um (or time_s, radial_mm, length_mm; semicolons and decimal "
+          "commas too), one run or two, in one file or two; of a line run,direction,target_mm,"
+          "deviation_um")
+      .required();
+  command.option("--plane", words->plane, "XY, YZ or ZX (default: as the file says, else XY)");
+  command.option("--length", words->length, "Of the bar, mm (default: as the file says)");
+  command.option("--capture", words->capture,
+                 "From,to in degrees: the arc over which times are spread (default 0,360)");
+  command.option("--stroke", words->stroke, "Of the bar to either side, mm (default 1)");
+  command.option("--axis", words->axis, "The axis of a line");
+  command.option("--out", words->out, "Folder for motion.html and motion.json");
+  add_answer_options(command, *words);
+  command.footer("Example: frustum motion trace measured.csv --plane XY --length 150");
+  command.runs([words] { return show_motion(trace_answer(*words), *words, words->out); });
+}
+
+}  // namespace
+
+void add_motion(Command& program) {
+  Command tests = program.command(
+      "motion", "Ball bar, R-test and laser on the virtual machine; measured traces");
+  tests.needs_a_command();
+  add_circle(tests);
+  add_rotary(tests);
+  add_cone_motion(tests);
+  add_chase(tests);
+  add_line(tests);
+  add_diagonal(tests);
+  add_motion_run(tests);
+  add_trace(tests);
+}
+
+}  // namespace frustum::app

@@ -1,0 +1,109 @@
+#include "app/motion/chase_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/view/text_table.hpp"
+#include "core/decimal.hpp"
+#include "instruments/approach.hpp"
+#include "instruments/chase_test.hpp"
+#include "instruments/readings.hpp"
+
+namespace frustum::app {
+namespace {
+
+// Rows of a terminal's table; the document has all.
+constexpr std::size_t kMostRows = 40;
+
+std::string vectors_text(const std::vector<instruments::TestPose>& poses,
+                         const std::vector<Vec3>& vectors, const kinematics::Machine& machine) {
+  std::vector<std::string> headings{"pose"};
+  std::vector<kinematics::AxisLetter> rotary;
+  for (const auto letter : kinematics::kRotaryAxes) {
+    if (machine.joint(letter) == nullptr) continue;
+    rotary.push_back(letter);
+    headings.push_back(fmt::format("{} deg", to_char(letter)));
+  }
+  for (const char* axis : {"x um", "y um", "z um"}) headings.emplace_back(axis);
+  TextTable table(headings);
+  for (std::size_t i = 0; i < std::min(vectors.size(), kMostRows); ++i) {
+    std::vector<std::string> cells{fmt::format("{}", i + 1)};
+    for (const auto letter : rotary) {
+      cells.push_back(fmt::format("{:.3f}", poses[i].at.q[letter] * kDegPerRad));
+    }
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      cells.push_back(fixed_decimal(vectors[i][k] * kUmPerMm, 3));
+    }
+    table.row(cells);
+  }
+  const std::size_t left = vectors.size() - std::min(vectors.size(), kMostRows);
+  return table.text() + (left > 0 ? fmt::format("{} more poses: --json\n", left) : "");
+}
+
+// Arrows at the angle of the axis next to the table, a colour for each position of the other.
+void draw_vectors(MotionAnswer& answer, const std::vector<instruments::TestPose>& poses,
+                  const std::vector<Vec3>& vectors, const kinematics::Machine& machine) {
+  using kinematics::AxisLetter;
+  const bool has_c = machine.joint(AxisLetter::C) != nullptr;
+  const AxisLetter round = has_c ? AxisLetter::C : AxisLetter::B;
+  const AxisLetter tilt = machine.joint(AxisLetter::A) != nullptr ? AxisLetter::A : AxisLetter::B;
+  report::MotionTable table{.heading = "Displacements, frame of the table",
+                            .columns = {"pose", ">x um", ">y um", ">z um"}};
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
+    const Vec3 um = vectors[i] * kUmPerMm;
+    const std::string name =
+        fmt::format("{} {:g}°", to_char(tilt), poses[i].at.q[tilt] * kDegPerRad);
+    auto series = std::ranges::find(answer.page.arrows, name, &report::ArrowSeries::name);
+    if (series == answer.page.arrows.end()) {
+      series = answer.page.arrows.insert(series, {name, {}});
+    }
+    series->arrows.push_back({poses[i].at.q[round], um.x(), um.y()});
+    table.rows.push_back(
+        {fmt::format("{}, {} {:g}°", name, to_char(round), poses[i].at.q[round] * kDegPerRad),
+         fixed_decimal(um.x(), 3), fixed_decimal(um.y(), 3), fixed_decimal(um.z(), 3)});
+  }
+  answer.page.tables.push_back(std::move(table));
+}
+
+}  // namespace
+
+Result<MotionAnswer> chase_answer(const ChaseWords& words) {
+  const auto setup = motion_setup(words);
+  if (!setup) return setup.error();
+  const auto ball = place_of(words.ball, "--ball");
+  if (!ball) return ball.error();
+  const auto poses = pose_list(setup->machine, words.at);
+  if (!poses) return poses.error();
+  const auto test = instruments::chase_test(setup->machine, {*ball, *poses, setup->tool_length});
+  if (!test) return test.error();
+  const kinematics::ForwardChain actual(setup->machine, setup->errors, setup->tool_length);
+  const auto vectors = instruments::shown(
+      setup->instrument,
+      instruments::displacements(actual, instruments::with_approach(*test, setup->errors).poses,
+                                 setup->setup),
+      0);
+  MotionAnswer answer = answer_of("chase", "R-test", *setup);
+  answer.document["table_ball_mm"] = coordinates(*ball);
+  Lists list;
+  double squares = 0.0;
+  for (const Vec3& each : vectors) {
+    list.push_back(coordinates(each, kUmPerMm));
+    squares += each.squaredNorm();
+  }
+  const double rms = std::sqrt(squares / static_cast<double>(vectors.size())) * kUmPerMm;
+  answer.document["displacement_um"] = list;
+  answer.document["axes"] = axes_of(setup->machine, test->poses);
+  answer.document["evaluation"] = Document{{"rms_um", rms}};
+  draw_vectors(answer, test->poses, vectors, setup->machine);
+  answer.text += vectors_text(test->poses, vectors, setup->machine);
+  answer.text += fmt::format("root mean square {:.3f} um, in the frame of the table\n", rms);
+  const auto errors = instruments::location_unknowns(setup->machine);
+  const std::vector gains{instruments::displacement_gains(
+      setup->machine, errors, instruments::thinned(*test, kPosesThatTell))};
+  add_told(answer, instruments::told_by(errors, gains, instruments::SpindleBall::unknown));
+  return answer;
+}
+
+}  // namespace frustum::app

@@ -1,0 +1,17 @@
+// frustum motion chase: an R-test, the tip stays at the table ball while the rotary axes go.
+//
+// Units  : mm and degrees in the words
+// Errors : of words, machine and test
+#pragma once
+
+#include "app/motion/motion_answer.hpp"
+
+namespace frustum::app {
+
+struct ChaseWords : MotionWords {
+  std::string ball{};
+};
+
+[[nodiscard]] Result<MotionAnswer> chase_answer(const ChaseWords& words);
+
+}  // namespace frustum::app

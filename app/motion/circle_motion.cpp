@@ -1,0 +1,89 @@
+#include "app/motion/circle_motion.hpp"
+
+#include <fmt/format.h>
+
+#include "app/motion/circle_report.hpp"
+#include "core/constants.hpp"
+#include "instruments/approach.hpp"
+#include "instruments/circle_test.hpp"
+#include "instruments/reach.hpp"
+#include "instruments/readings.hpp"
+#include "instruments/sample_angles.hpp"
+
+namespace frustum::app {
+namespace {
+
+using instruments::CircleTest;
+using instruments::CircleTrace;
+using instruments::MotionTest;
+using instruments::Sense;
+
+Result<CircleTest> circle_of(const CircleWords& words, const MotionSetup& setup) {
+  const auto plane = instruments::plane_named(words.plane);
+  if (!plane) return unknown_word("--plane", words.plane, {"XY", "YZ", "ZX"});
+  const auto centre = place_of(words.centre, "--center");
+  if (!centre) return centre.error();
+  const auto angles = angle_list(words.angles);
+  if (!angles) return angles.error();
+  const auto held = held_axes(setup.machine, words.at, LinearAxes::moved);
+  if (!held) return held.error();
+  CircleTest circle{.plane = *plane,
+                    .length = words.length,
+                    .centre = *centre,
+                    .held = *held,
+                    .tool_length = setup.tool_length};
+  circle.angles =
+      *angles ? **angles : instruments::midpoints(0.0, kTurn, instruments::kSamplesOfATurn);
+  if (words.feed) {
+    if (!(*words.feed > 0.0)) {
+      return error("out-of-range"_id,
+                   fmt::format("--feed {}: expected a feed above 0 mm/min", *words.feed));
+    }
+    circle.feed = *words.feed / kSecondsPerMinute;
+  }
+  return circle;
+}
+
+}  // namespace
+
+Result<MotionAnswer> circle_answer(const CircleWords& words) {
+  const auto setup = motion_setup(words);
+  if (!setup) return setup.error();
+  auto circle = circle_of(words, *setup);
+  if (!circle) return circle.error();
+  const kinematics::ForwardChain actual(setup->machine, setup->errors, setup->tool_length);
+  std::vector<CircleTrace> traces;
+  MotionTest ccw;
+  for (const Sense sense : instruments::kSenses) {
+    circle->sense = sense;
+    auto test = circle_test(setup->machine, *circle);
+    if (!test) return test.error();
+    const MotionTest run = instruments::with_approach(*test, setup->errors);
+    auto readings =
+        instruments::shown(setup->instrument, instruments::bar_readings(actual, run, setup->setup),
+                           static_cast<std::uint32_t>(sense));
+    if (auto problem = instruments::beyond_stroke(run, readings, words.stroke, "phi")) {
+      return *std::move(problem);
+    }
+    traces.push_back({sense, circle->angles, std::move(readings)});
+    if (sense == Sense::ccw) ccw = *std::move(test);
+  }
+  MotionAnswer answer = answer_of("circle", "Circle in " + words.plane, *setup);
+  answer.document["plane"] = words.plane;
+  answer.document["length_mm"] = circle->length;
+  answer.document["center_mm"] = coordinates(circle->centre);
+  if (words.feed) answer.document["feed_mm_min"] = *words.feed;
+  answer.document["angles_deg"] = in_degrees(circle->angles);
+  answer.document["ccw_um"] = in_um(traces[0].deviation);
+  answer.document["cw_um"] = in_um(traces[1].deviation);
+  answer.document["axes"] = axes_of(setup->machine, ccw.poses);
+  answer.files["trace.csv"] = circle_csv(traces, circle->plane, circle->length);
+  add_circle_evaluation(answer, traces, circle->length, circle->plane);
+  const auto errors = instruments::location_unknowns(setup->machine);
+  const std::vector gains{
+      instruments::bar_gains(setup->machine, errors, instruments::thinned(ccw, kPosesThatTell))};
+  add_told(answer, instruments::told_by(errors, gains, instruments::SpindleBall::unknown));
+  return answer;
+}
+
+}  // namespace frustum::app

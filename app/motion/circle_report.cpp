@@ -1,0 +1,253 @@
+#include "app/motion/circle_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/view/text_table.hpp"
+#include "core/decimal.hpp"
+#include "instruments/circle_evaluation.hpp"
+
+namespace frustum::app {
+namespace {
+
+using instruments::CircleTrace;
+using instruments::CircleValues;
+using instruments::Contribution;
+using instruments::kSignatureTerms;
+using instruments::RunValues;
+using instruments::Signature;
+using instruments::SignatureTerm;
+
+double unit_of(SignatureTerm term) {
+  return term == SignatureTerm::square ? kUradPerRad : kUmPerMm;
+}
+
+// "square_urad" is a value, "square" what it makes.
+std::string contribution_name(const Contribution& contribution) {
+  if (!contribution.term) return "residual";
+  if (*contribution.term == SignatureTerm::square) return "square";
+  return std::string(text_of(*contribution.term).name);
+}
+
+Document values_of(const CircleValues& v) {
+  Document doc;
+  const auto um = [&](const std::string& name, const std::optional<double>& mm) {
+    doc[name] = mm ? std::optional(*mm * kUmPerMm) : std::nullopt;
+  };
+  const auto of = [&](const std::optional<RunValues>& run, double RunValues::*member) {
+    return run ? std::optional(*run.*member) : std::nullopt;
+  };
+  um("G_ccw_ls", of(v.ccw, &RunValues::g_least_squares));
+  um("G_cw_ls", of(v.cw, &RunValues::g_least_squares));
+  um("G_bi_ls", v.g_bi_least_squares);
+  um("G_ccw_mz", of(v.ccw, &RunValues::g_minimum_zone));
+  um("G_cw_mz", of(v.cw, &RunValues::g_minimum_zone));
+  um("G_bi_mz", v.g_bi_minimum_zone);
+  um("D_mean_radial", v.d_mean_radial);
+  doc["centre_bi"] = std::vector{v.both.x * kUmPerMm, v.both.y * kUmPerMm};
+  um("F_ccw_max", of(v.ccw, &RunValues::f_max));
+  um("F_ccw_min", of(v.ccw, &RunValues::f_min));
+  um("F_cw_max", of(v.cw, &RunValues::f_max));
+  um("F_cw_min", of(v.cw, &RunValues::f_min));
+  return doc;
+}
+
+void add_signature(Document& doc, const Signature& s, const std::vector<Contribution>& ranked) {
+  Document value, sd, per_um, width, share;
+  for (std::size_t k = 0; k < kSignatureTerms; ++k) {
+    const auto term = static_cast<SignatureTerm>(k);
+    const std::string name(text_of(term).name);
+    const bool told = s.both_senses || term != SignatureTerm::servo;
+    const auto known = [&](double number) { return told ? std::optional(number) : std::nullopt; };
+    value[name] = known(s.value[k] * unit_of(term));
+    sd[name] = known(s.sd[k] * unit_of(term));
+    per_um[name] = known(s.sd_per_noise[k] * unit_of(term) / kUmPerMm);
+  }
+  for (const Contribution& each : ranked) {
+    width[contribution_name(each)] = each.width * kUmPerMm;
+    share[contribution_name(each)] = each.share;
+  }
+  doc["signature"] = value;
+  doc["signature_sd"] = sd;
+  doc["signature_sd_per_um"] = per_um;
+  doc["contribution_um"] = width;
+  doc["contribution_share"] = share;
+  doc["residual_rms"] = s.residual_rms * kUmPerMm;
+}
+
+std::string um_text(double mm) { return fixed_decimal(mm * kUmPerMm, 3); }
+
+// The same rows on a terminal and on the page.
+report::MotionTable values_table(const CircleValues& v) {
+  report::MotionTable table{
+      .heading = "Values",
+      .columns = {"um", ">G least squares", ">G minimum zone", ">F largest", ">F smallest"}};
+  for (const auto* run : {&v.ccw, &v.cw}) {
+    if (!*run) continue;
+    const RunValues& r = **run;
+    table.rows.push_back({std::string(name_of(r.sense)), um_text(r.g_least_squares),
+                          um_text(r.g_minimum_zone), um_text(r.f_max), um_text(r.f_min)});
+  }
+  table.rows.push_back(
+      {"both", um_text(v.g_bi_least_squares), um_text(v.g_bi_minimum_zone), "", ""});
+  table.note = fmt::format("Mean radial deviation D {} um, centre {}, {} um.",
+                           um_text(v.d_mean_radial), um_text(v.both.x), um_text(v.both.y));
+  return table;
+}
+
+std::string term_name(SignatureTerm term, instruments::Plane plane) {
+  const auto [first, second] = axes_of(plane);
+  if (term == SignatureTerm::square) return "square";
+  if (term == SignatureTerm::backlash_1) return fmt::format("backlash {}", to_char(first));
+  if (term == SignatureTerm::backlash_2) return fmt::format("backlash {}", to_char(second));
+  return std::string(text_of(term).name);
+}
+
+report::MotionTable signature_table(const Signature& s, instruments::Plane plane) {
+  report::MotionTable table{.heading = "Signature",
+                            .columns = {"term", ">value", ">sd", "unit", "what looks alike"}};
+  for (std::size_t k = 0; k < kSignatureTerms; ++k) {
+    const auto term = static_cast<SignatureTerm>(k);
+    if (term == SignatureTerm::servo && !s.both_senses) continue;
+    table.rows.push_back(
+        {fmt::format("{}: {}", term_name(term, plane), text_of(term).cause),
+         fixed_decimal(s.value[k] * unit_of(term), 3), fixed_decimal(s.sd[k] * unit_of(term), 3),
+         term == SignatureTerm::square ? "urad" : "um", std::string(text_of(term).looks_alike)});
+  }
+  table.note = fmt::format("Residual {} um rms.", um_text(s.residual_rms));
+  if (!s.both_senses) {
+    table.note += " One direction alone does not tell servo mismatch from squareness.";
+  }
+  return table;
+}
+
+// Without its last `dropped` columns.
+std::string text_of_table(const report::MotionTable& table, std::size_t dropped = 0) {
+  const auto kept = [&](std::vector<std::string> cells) {
+    cells.resize(cells.size() - dropped);
+    for (std::string& cell : cells) {
+      if (cell.starts_with('>')) cell.erase(0, 1);
+    }
+    return cells;
+  };
+  TextTable text(kept(table.columns));
+  for (const auto& row : table.rows) text.row(kept(row));
+  return text.text() + table.note + "\n";
+}
+
+std::vector<report::BarRow> bars_of(const std::vector<Contribution>& ranked,
+                                    instruments::Plane plane) {
+  std::vector<report::BarRow> bars;
+  for (const Contribution& each : ranked) {
+    bars.push_back({each.term ? term_name(*each.term, plane) : "residual", each.share,
+                    fmt::format("{} µm, {:.1f} %", um_text(each.width), 100.0 * each.share)});
+  }
+  return bars;
+}
+
+std::string contributions_text(const std::vector<Contribution>& ranked) {
+  TextTable order({"contribution", "um alone", "share"});
+  for (const Contribution& each : ranked) {
+    order.row({contribution_name(each), um_text(each.width),
+               fmt::format("{:.1f} %", 100.0 * each.share)});
+  }
+  return order.text() +
+         "Contributions are G of each term alone; their sum exceeds G where terms cancel.\n";
+}
+
+// Every few samples of a run, in um.
+report::PolarRound round_of(const std::vector<double>& angle, const std::vector<double>& mm) {
+  constexpr std::size_t kMostOnPaper = 1800;
+  const std::size_t stride = std::max<std::size_t>(1, angle.size() / kMostOnPaper);
+  report::PolarRound round;
+  for (std::size_t i = 0; i < angle.size(); i += stride) {
+    round.push_back({angle[i], mm[i] * kUmPerMm, i > 0});
+  }
+  return round;
+}
+
+// The deviations from the nominal circle about the centre of both runs.
+std::vector<double> about_centre(const CircleTrace& trace, std::vector<double> deviation,
+                                 const instruments::PolarCircle& centre) {
+  for (std::size_t i = 0; i < deviation.size(); ++i) {
+    deviation[i] -= centre.x * std::cos(trace.angle[i]) + centre.y * std::sin(trace.angle[i]);
+  }
+  return deviation;
+}
+
+void draw_traces(MotionAnswer& answer, const std::vector<CircleTrace>& traces,
+                 const instruments::PolarCircle& centre, const std::optional<Signature>& fitted,
+                 double length) {
+  report::TraceChart chart{.title = "Deviation about the fitted centre over the angle",
+                           .along_title = "angle, °",
+                           .value_title = "deviation, µm"};
+  for (const CircleTrace& trace : traces) {
+    const std::string name(name_of(trace.sense));
+    const auto deviation = about_centre(trace, trace.deviation, centre);
+    answer.page.polar.push_back({name, round_of(trace.angle, deviation)});
+    chart.lines.push_back(
+        {.name = name, .along = in_degrees(trace.angle), .value = in_um(deviation)});
+  }
+  answer.page.charts.push_back(std::move(chart));
+  if (!fitted) return;
+  const auto rest = residuals(traces, *fitted, length);
+  for (std::size_t k = 0; k < traces.size(); ++k) {
+    std::vector<double> modelled = traces[k].deviation;
+    for (std::size_t i = 0; i < modelled.size(); ++i) modelled[i] -= rest[k][i];
+    answer.page.polar.push_back(
+        {fmt::format("{}, fitted signature", name_of(traces[k].sense)),
+         round_of(traces[k].angle, about_centre(traces[k], modelled, centre)), true});
+  }
+}
+
+void warn(MotionAnswer& answer, const Diagnostics& problems) {
+  for (const Diagnostic& each : problems) {
+    answer.warnings.push_back(warning(each.id, "no evaluation: " + each.message, each.hint));
+  }
+}
+
+}  // namespace
+
+void add_circle_evaluation(MotionAnswer& answer, const std::vector<CircleTrace>& traces,
+                           double length, instruments::Plane plane) {
+  answer.document["evaluation"] = {};
+  const auto values = instruments::circle_values(traces);
+  if (!values) return warn(answer, values.error());
+  Document doc = values_of(*values);
+  answer.page.tables.push_back(values_table(*values));
+  answer.text += text_of_table(answer.page.tables.back());
+  const auto found = instruments::signature(traces, length);
+  if (found) {
+    const auto ranked = instruments::contributions(traces, *found, length);
+    add_signature(doc, *found, ranked);
+    answer.page.tables.push_back(signature_table(*found, plane));
+    answer.page.contributions = bars_of(ranked, plane);
+    answer.text +=
+        "\n" + text_of_table(answer.page.tables.back(), 1) + "\n" + contributions_text(ranked);
+  } else {
+    warn(answer, found.error());
+    doc["signature"] = {};
+  }
+  draw_traces(answer, traces, values->both, found ? std::optional(*found) : std::nullopt, length);
+  answer.document["evaluation"] = doc;
+}
+
+std::string circle_csv(const std::vector<CircleTrace>& traces, instruments::Plane plane,
+                       double length) {
+  std::string csv = fmt::format("# plane {}\n# radius {}\nrun,angle_deg,radial_um\n",
+                                name_of(plane), shortest_decimal(length));
+  for (const CircleTrace& trace : traces) {
+    const bool falls = trace.sense == instruments::Sense::cw;
+    for (std::size_t k = 0; k < trace.angle.size(); ++k) {
+      const std::size_t i = falls ? trace.angle.size() - 1 - k : k;
+      csv += fmt::format("{},{},{}\n", name_of(trace.sense),
+                         shortest_decimal(trace.angle[i] * kDegPerRad),
+                         shortest_decimal(trace.deviation[i] * kUmPerMm));
+    }
+  }
+  return csv;
+}
+
+}  // namespace frustum::app

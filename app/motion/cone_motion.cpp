@@ -1,0 +1,75 @@
+#include "app/motion/cone_motion.hpp"
+
+#include <fmt/format.h>
+
+#include "app/motion/turn_report.hpp"
+#include "core/constants.hpp"
+#include "instruments/approach.hpp"
+#include "instruments/cone_test.hpp"
+#include "instruments/reach.hpp"
+#include "instruments/readings.hpp"
+#include "instruments/sample_angles.hpp"
+
+namespace frustum::app {
+namespace {
+
+using instruments::ConeSense;
+using instruments::ConeTest;
+
+Result<ConeTest> cone_of(const ConeMotionWords& words, const MotionSetup& setup) {
+  if (words.sense != "normal" && words.sense != "radial") {
+    return unknown_word("--sense", words.sense, {"normal", "radial"});
+  }
+  const auto centre = place_of(words.centre, "--center");
+  if (!centre) return centre.error();
+  const auto angles = angle_list(words.angles);
+  if (!angles) return angles.error();
+  return ConeTest{.cone_angle = words.cone_angle * kRadPerDeg,
+                  .inclination = words.inclination * kRadPerDeg,
+                  .radius = words.radius,
+                  .centre = *centre,
+                  .sense = words.sense == "normal" ? ConeSense::normal : ConeSense::radial,
+                  .angles = *angles
+                                ? **angles
+                                : instruments::midpoints(0.0, kTurn, instruments::kSamplesOfATurn),
+                  .tool_length = setup.tool_length};
+}
+
+}  // namespace
+
+Result<MotionAnswer> cone_answer(const ConeMotionWords& words) {
+  const auto setup = motion_setup(words);
+  if (!setup) return setup.error();
+  const auto cone = cone_of(words, *setup);
+  if (!cone) return cone.error();
+  const auto test = cone_test(setup->machine, *cone);
+  if (!test) return test.error();
+  const kinematics::ForwardChain actual(setup->machine, setup->errors, setup->tool_length);
+  const auto readings = instruments::shown(
+      setup->instrument,
+      instruments::bar_readings(actual, instruments::with_approach(*test, setup->errors),
+                                setup->setup),
+      0);
+  if (auto problem = instruments::beyond_stroke(*test, readings, words.stroke, "phi")) {
+    return *std::move(problem);
+  }
+  MotionAnswer answer = answer_of("cone", fmt::format("Cone path, bar {}", words.sense), *setup);
+  answer.document["sense"] = words.sense;
+  answer.document["cone_angle_deg"] = words.cone_angle;
+  answer.document["inclination_deg"] = words.inclination;
+  answer.document["radius_mm"] = words.radius;
+  answer.document["center_mm"] = coordinates(cone->centre);
+  answer.document["table_ball_mm"] = coordinates(test->table_ball);
+  answer.document["length_mm"] = test->bar;
+  answer.document["angles_deg"] = in_degrees(cone->angles);
+  answer.document["reading_um"] = in_um(readings);
+  answer.document["axes"] = axes_of(setup->machine, test->poses);
+  add_turn_evaluation(answer, "phi", cone->angles, readings);
+  const auto errors = instruments::location_unknowns(setup->machine);
+  const std::vector gains{
+      instruments::bar_gains(setup->machine, errors, instruments::thinned(*test, kPosesThatTell))};
+  add_told(answer, instruments::told_by(errors, gains, instruments::SpindleBall::unknown));
+  return answer;
+}
+
+}  // namespace frustum::app

@@ -1,0 +1,241 @@
+#include "app/motion/line_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/job/number_list.hpp"
+#include "app/view/text_table.hpp"
+#include "core/decimal.hpp"
+#include "instruments/approach.hpp"
+#include "instruments/line_straightness.hpp"
+#include "instruments/line_test.hpp"
+#include "instruments/readings.hpp"
+
+namespace frustum::app {
+namespace {
+
+using instruments::Deviations;
+using instruments::LineTest;
+using instruments::Positioning;
+using instruments::RunDirection;
+using kinematics::AxisLetter;
+
+Document values_of(const Positioning& p) {
+  const auto um = [](double mm) { return mm * kUmPerMm; };
+  return {{"x_up", in_um(p.up.mean)},
+          {"x_down", in_um(p.down.mean)},
+          {"B_i", in_um(p.reversal)},
+          {"B", um(p.largest_reversal)},
+          {"B_mean", um(p.mean_reversal)},
+          {"s_up", in_um(p.up.sd)},
+          {"s_down", in_um(p.down.sd)},
+          {"R_up", um(p.up.repeatability)},
+          {"R_down", um(p.down.repeatability)},
+          {"R_i", in_um(p.repeatability_at)},
+          {"R", um(p.repeatability)},
+          {"E_up", um(p.up.systematic)},
+          {"E_down", um(p.down.systematic)},
+          {"E", um(p.systematic)},
+          {"M", um(p.mean_range)},
+          {"A_up", um(p.up.accuracy)},
+          {"A_down", um(p.down.accuracy)},
+          {"A", um(p.accuracy)}};
+}
+
+std::string positioning_text(const std::vector<double>& targets, const Positioning& p) {
+  const auto number = [](double mm) { return fixed_decimal(mm * kUmPerMm, 3); };
+  TextTable table({"target mm", "up um", "2 s", "down um", "2 s", "reversal"});
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    table.row({fmt::format("{:g}", targets[i]), number(p.up.mean[i]), number(2.0 * p.up.sd[i]),
+               number(p.down.mean[i]), number(2.0 * p.down.sd[i]), number(p.reversal[i])});
+  }
+  TextTable values({"um", "both", "up", "down"});
+  values.row({"A accuracy", number(p.accuracy), number(p.up.accuracy), number(p.down.accuracy)});
+  values.row({"R repeatability", number(p.repeatability), number(p.up.repeatability),
+              number(p.down.repeatability)});
+  values.row({"E systematic deviation", number(p.systematic), number(p.up.systematic),
+              number(p.down.systematic)});
+  values.row({"M mean bidirectional", number(p.mean_range)});
+  values.row({"B reversal", number(p.largest_reversal)});
+  return table.text() + "\n" + values.text();
+}
+
+void draw_positioning(MotionAnswer& answer, const std::vector<double>& targets,
+                      const Positioning& p) {
+  report::TraceChart chart{.title = "Means of the runs with bands of two standard deviations",
+                           .along_title = "target, mm",
+                           .value_title = "deviation, µm"};
+  for (const auto* side : {&p.up, &p.down}) {
+    std::vector<double> band = in_um(side->sd);
+    for (double& each : band) each *= 2.0;
+    chart.lines.push_back({.name = side == &p.up ? "up" : "down",
+                           .along = targets,
+                           .value = in_um(side->mean),
+                           .half_width = std::move(band),
+                           .dots = true});
+  }
+  answer.page.charts.push_back(std::move(chart));
+  const auto number = [](double mm) { return fixed_decimal(mm * kUmPerMm, 3); };
+  answer.page.tables.push_back(
+      {.heading = "Values",
+       .columns = {"um", ">both", ">up", ">down"},
+       .rows = {{"A accuracy", number(p.accuracy), number(p.up.accuracy), number(p.down.accuracy)},
+                {"R repeatability", number(p.repeatability), number(p.up.repeatability),
+                 number(p.down.repeatability)},
+                {"E systematic deviation", number(p.systematic), number(p.up.systematic),
+                 number(p.down.systematic)},
+                {"M mean bidirectional", number(p.mean_range), "", ""},
+                {"B reversal", number(p.largest_reversal), "", ""}}});
+}
+
+// Displacements of one run, by target.
+std::vector<Vec3> run_of(const MotionSetup& setup, const kinematics::ForwardChain& actual,
+                         const LineTest& line, RunDirection direction, std::uint32_t number) {
+  const auto poses = instruments::with_approach(line.poses, line.start, setup.errors);
+  auto d = instruments::shown(setup.instrument,
+                              instruments::displacements(actual, poses, setup.setup), number);
+  if (direction == RunDirection::down) std::ranges::reverse(d);
+  return d;
+}
+
+// Of the motion of an axis across itself: the ranges of the mean of all runs.
+Document straightness_of_axis(const std::vector<double>& targets, const std::vector<Vec3>& means,
+                              AxisLetter axis, MotionAnswer& answer) {
+  Document doc;
+  for (const AxisLetter across : kinematics::kLinearAxes) {
+    if (across == axis) continue;
+    std::vector<double> deviation;
+    for (const Vec3& mean : means) deviation.push_back(mean[static_cast<Eigen::Index>(across)]);
+    const auto found = instruments::straightness_of(targets, deviation);
+    if (!found) continue;
+    const std::string name(1, to_char(across));
+    doc[name] = Document{{"least_squares", found->least_squares * kUmPerMm},
+                         {"end_points", found->end_points * kUmPerMm},
+                         {"minimum_zone", found->minimum_zone * kUmPerMm}};
+    answer.text +=
+        fmt::format("straightness in {}: {:.3f} um least squares, {:.3f} um minimum zone\n", name,
+                    found->least_squares * kUmPerMm, found->minimum_zone * kUmPerMm);
+  }
+  return doc;
+}
+
+}  // namespace
+
+std::optional<Diagnostics> add_positioning(MotionAnswer& answer, const std::vector<double>& targets,
+                                           const Deviations& up, const Deviations& down) {
+  const auto found = instruments::positioning(up, down);
+  if (!found) return found.error();
+  answer.document["evaluation"] = values_of(*found);
+  draw_positioning(answer, targets, *found);
+  answer.text += positioning_text(targets, *found);
+  return std::nullopt;
+}
+
+Result<MotionAnswer> line_answer(const LineWords& words) {
+  const auto setup = motion_setup(words);
+  if (!setup) return setup.error();
+  const auto axis = kinematics::axis_named(words.axis);
+  if (!axis) return unknown_word("--axis", words.axis, {"X", "Y", "Z"});
+  const auto targets = number_list(words.targets, "--targets");
+  if (!targets) return targets.error();
+  const auto held = held_axes(setup->machine, words.at, LinearAxes::held);
+  if (!held) return held.error();
+  const instruments::AxisLine line{
+      .axis = *axis, .targets = *targets, .held = *held, .tool_length = setup->tool_length};
+  const auto up = instruments::axis_line(setup->machine, line, RunDirection::up);
+  if (!up) return up.error();
+  const auto down = instruments::axis_line(setup->machine, line, RunDirection::down);
+  if (!down) return down.error();
+  const kinematics::ForwardChain actual(setup->machine, setup->errors, setup->tool_length);
+  Deviations deviations_up(targets->size()), deviations_down(targets->size());
+  std::vector<Vec3> means(targets->size(), Vec3::Zero());
+  std::uint32_t number = 0;
+  for (int run = 0; run < words.runs; ++run) {
+    for (const RunDirection direction : {RunDirection::up, RunDirection::down}) {
+      const bool is_up = direction == RunDirection::up;
+      const auto d = run_of(*setup, actual, is_up ? *up : *down, direction, number++);
+      for (std::size_t i = 0; i < d.size(); ++i) {
+        // `down` has the opposite order, not the opposite direction.
+        (is_up ? deviations_up : deviations_down)[i].push_back(d[i].dot(up->direction));
+        means[i] += d[i] / (2.0 * words.runs);
+      }
+    }
+  }
+  MotionAnswer answer = answer_of("line", fmt::format("Laser along {}", words.axis), *setup);
+  answer.document["axis"] = words.axis;
+  answer.document["runs"] = static_cast<std::uint64_t>(words.runs);
+  answer.document["targets_mm"] = *targets;
+  const auto rows = [](const Deviations& by_target) {
+    Lists list;
+    for (const auto& row : by_target) list.push_back(in_um(row));
+    return list;
+  };
+  answer.document["deviations_up_um"] = rows(deviations_up);
+  answer.document["deviations_down_um"] = rows(deviations_down);
+  if (auto problem = add_positioning(answer, *targets, deviations_up, deviations_down)) {
+    return *std::move(problem);
+  }
+  answer.document["straightness_um"] = straightness_of_axis(*targets, means, *axis, answer);
+  // What the laser sees along its line, and the tilts that reach it through their levers.
+  instruments::Told told;
+  told.told = {fmt::format("E{0}{0}", words.axis)};
+  const std::vector<std::string> tilts = *axis == AxisLetter::X ? std::vector<std::string>{"B", "C"}
+                                         : *axis == AxisLetter::Y
+                                             ? std::vector<std::string>{"A", "C"}
+                                             : std::vector<std::string>{"A", "B"};
+  for (const std::string& tilt : tilts) told.not_told.push_back("E" + tilt + words.axis);
+  for (const auto& error : instruments::location_unknowns(setup->machine)) {
+    told.not_told.push_back(error.name);
+  }
+  add_told(answer, told);
+  return answer;
+}
+
+Result<MotionAnswer> diagonal_answer(const DiagonalWords& words) {
+  const auto setup = motion_setup(words);
+  if (!setup) return setup.error();
+  const auto box = box_of(words.box);
+  if (!box) return box.error();
+  const auto held = held_axes(setup->machine, words.at, LinearAxes::held);
+  if (!held) return held.error();
+  const auto lines = instruments::diagonal_lines(
+      setup->machine,
+      {.box = *box, .points = words.points, .held = *held, .tool_length = setup->tool_length});
+  if (!lines) return lines.error();
+  const kinematics::ForwardChain actual(setup->machine, setup->errors, setup->tool_length);
+  MotionAnswer answer = answer_of("diagonal", "Diagonals", *setup);
+  Document readings, lengths;
+  report::TraceChart chart{.title = "Readings along the diagonals",
+                           .along_title = "length along the diagonal, mm",
+                           .value_title = "reading, µm"};
+  TextTable table({"diagonal", "length mm", "middle um", "end um"});
+  const auto errors = instruments::location_unknowns(setup->machine);
+  std::vector<instruments::ReadingGains> gains;
+  std::uint32_t number = 0;
+  for (const auto& [signs, line] : *lines) {
+    LineTest run = line;
+    run.poses = instruments::with_approach(run.poses, run.start, setup->errors);
+    const auto seen = instruments::from_first(instruments::shown(
+        setup->instrument, instruments::line_readings(actual, run, setup->setup), number++));
+    readings[signs] = in_um(seen);
+    chart.lines.push_back({.name = signs, .along = {}, .value = in_um(seen), .dots = true});
+    for (const auto& pose : line.poses) chart.lines.back().along.push_back(pose.parameter);
+    lengths[signs] = line.poses.back().parameter;
+    table.row({signs, fmt::format("{:.3f}", line.poses.back().parameter),
+               fixed_decimal(seen[seen.size() / 2] * kUmPerMm, 3),
+               fixed_decimal(seen.back() * kUmPerMm, 3)});
+    gains.push_back(instruments::line_gains(setup->machine, errors, line, setup->tool_length));
+  }
+  answer.document["points"] = static_cast<std::uint64_t>(words.points);
+  answer.document["lengths_mm"] = lengths;
+  answer.document["diagonals"] = readings;
+  answer.document["evaluation"] = {};
+  answer.page.charts.push_back(std::move(chart));
+  answer.text += table.text();
+  answer.text += "Equal diagonals prove nothing: errors may cancel on all of them.\n";
+  add_told(answer, instruments::told_by(errors, gains, instruments::SpindleBall::unknown));
+  return answer;
+}
+
+}  // namespace frustum::app

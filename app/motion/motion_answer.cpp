@@ -1,0 +1,98 @@
+#include "app/motion/motion_answer.hpp"
+
+#include <fmt/format.h>
+
+#include <sstream>
+
+namespace frustum::app {
+
+using instruments::TestPose;
+
+std::vector<double> coordinates(const Vec3& v, double factor) {
+  return {factor * v.x(), factor * v.y(), factor * v.z()};
+}
+
+std::vector<double> in_um(std::vector<double> mm) {
+  for (double& each : mm) each *= kUmPerMm;
+  return mm;
+}
+
+std::vector<double> in_degrees(std::vector<double> rad) {
+  for (double& each : rad) each *= kDegPerRad;
+  return rad;
+}
+
+Document axes_of(const kinematics::Machine& machine, const std::vector<TestPose>& poses) {
+  Document axes;
+  for (const auto letter : kinematics::kAxisLetters) {
+    if (machine.joint(letter) == nullptr) continue;
+    std::vector<double> positions;
+    for (const TestPose& pose : poses) {
+      positions.push_back(pose.at.q[letter] * (is_rotary(letter) ? kDegPerRad : 1.0));
+    }
+    axes[std::string(1, to_char(letter))] = std::move(positions);
+  }
+  return axes;
+}
+
+std::vector<double> parameters_of(const instruments::MotionTest& test) {
+  std::vector<double> parameters;
+  for (const TestPose& pose : test.poses) parameters.push_back(pose.parameter);
+  return parameters;
+}
+
+MotionAnswer answer_of(const std::string& test, const std::string& title,
+                       const MotionSetup& setup) {
+  Document errors;
+  std::string written;
+  for (const auto& entry : setup.entries) {
+    errors[entry.name] = entry.written;
+    written += fmt::format("{}{} = {}", written.empty() ? "" : "; ", entry.name, entry.written);
+  }
+  if (written.empty()) written = "no errors";
+  const instruments::SetupErrors& off = setup.setup;
+  const instruments::Instrument& instrument = setup.instrument;
+  MotionAnswer answer{
+      .document = {{"schema", "frustum/motion/1"},
+                   {"test", test},
+                   {"machine", setup.machine.name()},
+                   {"structure", setup.machine.structure()},
+                   {"tool_length_mm", setup.tool_length},
+                   {"errors", errors},
+                   {"setup_um", Document{{"ball", coordinates(off.ball, kUmPerMm)},
+                                         {"table_ball", coordinates(off.table_ball, kUmPerMm)},
+                                         {"length", off.length * kUmPerMm}}},
+                   {"noise_um", instrument.noise * kUmPerMm},
+                   {"resolution_um", instrument.resolution * kUmPerMm},
+                   {"seed", instrument.seed}},
+      .text = fmt::format("{} on {}, {}\n", title, setup.machine.name(), written)};
+  const auto um = [](const Vec3& v) {
+    return fmt::format("{:g}, {:g}, {:g} um", v.x() * kUmPerMm, v.y() * kUmPerMm, v.z() * kUmPerMm);
+  };
+  answer.page.title = title;
+  answer.page.facts = {{"Machine", setup.machine.title()},
+                       {"Structure", setup.machine.structure()},
+                       {"Errors", written},
+                       {"Spindle ball off", um(off.ball)},
+                       {"Table ball off", um(off.table_ball)},
+                       {"Bar longer by", fmt::format("{:g} um", off.length * kUmPerMm)},
+                       {"Tool length", fmt::format("{:g} mm", setup.tool_length)}};
+  if (instrument.noise > 0.0) {
+    answer.page.facts.push_back(
+        {"Noise", fmt::format("{:g} um, seed {}", instrument.noise * kUmPerMm, instrument.seed)});
+  }
+  return answer;
+}
+
+void add_told(MotionAnswer& answer, const instruments::Told& told) {
+  answer.page.told = told.told;
+  answer.page.not_told = told.not_told;
+  answer.document["told"] = told.told;
+  answer.document["not_told"] = told.not_told;
+  answer.text += fmt::format(
+      "told, whatever the set-up: {}\nnot told alone: {}\n",
+      told.told.empty() ? "nothing" : fmt::format("{}", fmt::join(told.told, ", ")),
+      told.not_told.empty() ? "nothing" : fmt::format("{}", fmt::join(told.not_told, ", ")));
+}
+
+}  // namespace frustum::app

@@ -1,0 +1,47 @@
+// What a motion test answers: a document, a text for the terminal, and files.
+//
+// Units  : as named in the document; the text says them
+// Errors : none
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/motion/document.hpp"
+#include "app/motion/motion_words.hpp"
+#include "instruments/motion_test.hpp"
+#include "instruments/observability.hpp"
+#include "report/page/motion_page.hpp"
+
+namespace frustum::app {
+
+struct MotionAnswer {
+  Document document{};
+  std::string text{};
+  report::MotionPage page{};
+  Diagnostics warnings{};
+  std::map<std::string, std::string> files{};  // of --out, besides the document
+};
+
+// Begins the document with schema, test, machine, errors and set-up, text and page with the title
+// and the same.
+[[nodiscard]] MotionAnswer answer_of(const std::string& test, const std::string& title,
+                                     const MotionSetup& setup);
+
+// Millimetres and rad as they are shown.
+[[nodiscard]] std::vector<double> in_um(std::vector<double> mm);
+[[nodiscard]] std::vector<double> in_degrees(std::vector<double> rad);
+[[nodiscard]] std::vector<double> coordinates(const Vec3& v, double factor = 1.0);
+// {"X": [..], "C": [..]}, mm and degrees.
+[[nodiscard]] Document axes_of(const kinematics::Machine& machine,
+                               const std::vector<instruments::TestPose>& poses);
+[[nodiscard]] std::vector<double> parameters_of(const instruments::MotionTest& test);
+
+// Puts `told` and `not_told` into the document and a line into the text.
+void add_told(MotionAnswer& answer, const instruments::Told& told);
+
+// At least as many poses as the unknowns of any test, evenly among its samples.
+constexpr std::size_t kPosesThatTell = 72;
+
+}  // namespace frustum::app

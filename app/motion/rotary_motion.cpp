@@ -1,0 +1,101 @@
+#include "app/motion/rotary_motion.hpp"
+
+#include <fmt/format.h>
+
+#include "app/motion/turn_report.hpp"
+#include "instruments/approach.hpp"
+#include "instruments/reach.hpp"
+#include "instruments/readings.hpp"
+#include "instruments/rotary_test.hpp"
+#include "instruments/sample_angles.hpp"
+
+namespace frustum::app {
+namespace {
+
+using instruments::BarHold;
+using instruments::RotaryTest;
+
+Result<RotaryTest> rotary_of(const RotaryWords& words, const MotionSetup& setup) {
+  const std::vector<std::string> directions{"axial", "radial", "tangential"};
+  if (words.direction.empty()) {
+    return error("direction-missing"_id, "the direction of the bar is not said",
+                 fmt::format("--direction {}", fmt::join(directions, ", ")));
+  }
+  const auto direction = instruments::bar_direction_named(words.direction);
+  if (!direction) return unknown_word("--direction", words.direction, directions);
+  if (!words.hold.empty() && words.hold != "rotor" && words.hold != "bed") {
+    return unknown_word("--hold", words.hold, {"rotor", "bed"});
+  }
+  const auto axis = kinematics::axis_named(words.axis);
+  const kinematics::Joint* joint = axis ? setup.machine.joint(*axis) : nullptr;
+  if (joint == nullptr || !joint->rotary()) {
+    std::vector<std::string> rotary;
+    for (const auto& each : setup.machine.joints()) {
+      if (each.rotary()) rotary.emplace_back(1, to_char(each.letter));
+    }
+    return error(
+        "unknown-axis"_id,
+        fmt::format("--axis {} is no rotary axis of machine {}", words.axis, setup.machine.name()),
+        rotary.empty() ? "the machine has none"
+                       : fmt::format("rotary axes: {}", fmt::join(rotary, ", ")));
+  }
+  const auto ball = place_of(words.ball, "--ball");
+  if (!ball) return ball.error();
+  const auto angles = angle_list(words.angles);
+  if (!angles) return angles.error();
+  const auto held = held_axes(setup.machine, words.at, LinearAxes::moved);
+  if (!held) return held.error();
+  const kinematics::AxisRange arc = instruments::capture_of(*joint);
+  return RotaryTest{
+      .axis = *axis,
+      .direction = *direction,
+      .hold = words.hold.empty()    ? instruments::standing_hold(*joint)
+              : words.hold == "bed" ? BarHold::bed
+                                    : BarHold::rotor,
+      .table_ball = *ball,
+      .length = words.length,
+      .angles =
+          *angles ? **angles : instruments::midpoints(arc.lo, arc.hi, instruments::kSamplesOfATurn),
+      .held = *held,
+      .tool_length = setup.tool_length};
+}
+
+}  // namespace
+
+Result<MotionAnswer> rotary_answer(const RotaryWords& words) {
+  const auto setup = motion_setup(words);
+  if (!setup) return setup.error();
+  const auto rotary = rotary_of(words, *setup);
+  if (!rotary) return rotary.error();
+  const auto test = rotary_test(setup->machine, *rotary);
+  if (!test) return test.error();
+  const kinematics::ForwardChain actual(setup->machine, setup->errors, setup->tool_length);
+  const auto readings = instruments::shown(
+      setup->instrument,
+      instruments::bar_readings(actual, instruments::with_approach(*test, setup->errors),
+                                setup->setup),
+      0);
+  if (auto problem = instruments::beyond_stroke(*test, readings, words.stroke, words.axis)) {
+    return *std::move(problem);
+  }
+  MotionAnswer answer = answer_of("rotary",
+                                  fmt::format("Axis {}, {} bar held on the {}", words.axis,
+                                              words.direction, name_of(rotary->hold)),
+                                  *setup);
+  answer.document["axis"] = words.axis;
+  answer.document["direction"] = words.direction;
+  answer.document["hold"] = name_of(rotary->hold);
+  answer.document["table_ball_mm"] = coordinates(rotary->table_ball);
+  answer.document["length_mm"] = rotary->length;
+  answer.document["angles_deg"] = in_degrees(rotary->angles);
+  answer.document["reading_um"] = in_um(readings);
+  answer.document["axes"] = axes_of(setup->machine, test->poses);
+  add_turn_evaluation(answer, words.axis, rotary->angles, readings);
+  const auto errors = instruments::location_unknowns(setup->machine);
+  const std::vector gains{
+      instruments::bar_gains(setup->machine, errors, instruments::thinned(*test, kPosesThatTell))};
+  add_told(answer, instruments::told_by(errors, gains, instruments::SpindleBall::unknown));
+  return answer;
+}
+
+}  // namespace frustum::app

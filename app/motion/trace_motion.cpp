@@ -1,0 +1,126 @@
+#include "app/motion/trace_motion.hpp"
+
+#include <fmt/format.h>
+
+#include "app/job/number_list.hpp"
+#include "app/motion/circle_report.hpp"
+#include "app/motion/line_motion.hpp"
+#include "instruments/circle_trace_file.hpp"
+#include "instruments/line_trace_file.hpp"
+
+namespace frustum::app {
+namespace {
+
+using instruments::CircleTraces;
+using instruments::CircleTraceWords;
+using instruments::kSignatureTerms;
+using instruments::SignatureTerm;
+
+Document trace_head(const std::string& test, const TraceWords& words) {
+  return {{"schema", "frustum/motion/1"}, {"test", test}, {"files", words.files}};
+}
+
+Result<CircleTraceWords> reading_words(const TraceWords& words) {
+  CircleTraceWords reading{.stroke = words.stroke};
+  if (!words.plane.empty()) {
+    reading.plane = instruments::plane_named(words.plane);
+    if (!reading.plane) return unknown_word("--plane", words.plane, {"XY", "YZ", "ZX"});
+  }
+  if (words.length) {
+    if (!(*words.length > 0.0)) {
+      return error("out-of-range"_id,
+                   fmt::format("--length {}: expected a length above 0 mm", *words.length));
+    }
+    reading.length = words.length;
+  }
+  if (words.capture.empty()) return reading;
+  const auto arc = numbers_of(words.capture, 2, "--capture");
+  if (!arc) return arc.error();
+  if (!((*arc)[1] > (*arc)[0])) {
+    return error("out-of-range"_id,
+                 fmt::format("--capture {}: expected a growing arc", words.capture),
+                 "for example --capture=-20,200");
+  }
+  reading.capture = {(*arc)[0] * kRadPerDeg, (*arc)[1] * kRadPerDeg};
+  return reading;
+}
+
+// Which terms of the circle the trace tells.
+void add_told_terms(MotionAnswer& answer, const CircleTraces& all) {
+  std::vector<std::string> told, not_told;
+  if (const auto found = instruments::signature(all.traces, all.length)) {
+    const auto which = told_terms(all.traces, *found, all.length);
+    for (std::size_t k = 0; k < kSignatureTerms; ++k) {
+      (which[k] ? told : not_told).emplace_back(text_of(static_cast<SignatureTerm>(k)).name);
+    }
+  }
+  answer.document["told"] = told;
+  answer.document["not_told"] = not_told;
+  answer.page.told = told;
+  answer.page.not_told = not_told;
+  if (!not_told.empty()) {
+    answer.text += "not told by these arcs:";
+    for (const std::string& each : not_told) answer.text += " " + each;
+    answer.text += "\n";
+  }
+}
+
+Result<MotionAnswer> circle_trace(const TraceWords& words) {
+  const auto reading = reading_words(words);
+  if (!reading) return reading.error();
+  const std::vector<std::filesystem::path> files(words.files.begin(), words.files.end());
+  const auto all = read_circle_traces(files, *reading);
+  if (!all) return all.error();
+  MotionAnswer answer{.document = trace_head("trace", words),
+                      .text = fmt::format("Measured circle in {}, bar of {:g} mm\n",
+                                          name_of(all->plane), all->length)};
+  answer.document["plane"] = name_of(all->plane);
+  answer.document["length_mm"] = all->length;
+  answer.page.title = fmt::format("Measured circle in {}", name_of(all->plane));
+  answer.page.facts = {{"Bar", fmt::format("{:g} mm", all->length)}};
+  if (all->feed) answer.document["feed_mm_min"] = *all->feed;
+  if (all->temperature) answer.document["temperature_degC"] = *all->temperature;
+  for (const auto& trace : all->traces) {
+    const std::string sense(name_of(trace.sense));
+    answer.document[sense + "_angles_deg"] = in_degrees(trace.angle);
+    answer.document[sense + "_um"] = in_um(trace.deviation);
+  }
+  add_circle_evaluation(answer, all->traces, all->length, all->plane);
+  add_told_terms(answer, *all);
+  return answer;
+}
+
+Result<MotionAnswer> line_trace(const TraceWords& words) {
+  if (words.files.size() != 1) {
+    return error("file-count"_id,
+                 fmt::format("a line is in one file, given are {}", words.files.size()));
+  }
+  const auto letter = kinematics::axis_named(words.axis);
+  if (!letter) return unknown_word("--axis", words.axis, {"X", "Y", "Z", "A", "B", "C"});
+  const auto line = instruments::read_line_trace(words.files.front());
+  if (!line) return line.error();
+  MotionAnswer answer{.document = trace_head("line", words),
+                      .text = fmt::format("Measured line along {}\n", words.axis)};
+  answer.page.title = fmt::format("Measured line along {}", words.axis);
+  answer.document["axis"] = words.axis;
+  answer.document["targets_mm"] = line->targets;
+  if (auto problem = add_positioning(answer, line->targets, line->up, line->down)) {
+    for (Diagnostic& each : *problem) each.file = words.files.front();
+    return *std::move(problem);
+  }
+  answer.document["told"] = std::vector{fmt::format("E{0}{0}", words.axis)};
+  answer.document["not_told"] = std::vector<std::string>{};
+  return answer;
+}
+
+}  // namespace
+
+Result<MotionAnswer> trace_answer(const TraceWords& words) {
+  if (!words.axis.empty() && !words.plane.empty()) {
+    return error("conflicting-options"_id, "give either --plane or --axis",
+                 "--plane for a circle of a ball bar, --axis for a line of a laser");
+  }
+  return words.axis.empty() ? circle_trace(words) : line_trace(words);
+}
+
+}  // namespace frustum::app

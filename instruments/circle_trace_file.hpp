@@ -1,0 +1,43 @@
+// Measured traces of a circular test, as bar programs export them.
+//
+// Text   : columns run (ccw, cw), angle_deg or time_s, radial_um, radial_mm or length_mm
+//          (trace_table.hpp); comments "# run ccw", "# plane XY", "# radius 150", "# feed 1000",
+//          "# temperature 20". A file holds one run or both; two files hold one each. Angles of a
+//          cw run fall. A bar knows no angle: times are spread evenly over the capture arc
+// Units  : as the columns say; out: mm, rad
+// Errors : a run that is not said or there twice, angles that go back, gaps, deviations beyond the
+//          bar's stroke (a wrong unit), a length without nominal, statements that contradict each
+//          other: with file and line
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/result.hpp"
+#include "instruments/signature.hpp"
+#include "kinematics/model/axes.hpp"
+
+namespace frustum::instruments {
+
+struct CircleTraceWords {
+  std::optional<Plane> plane{};
+  std::optional<double> length{};  // nominal, mm
+  kinematics::AxisRange capture{0.0, 360.0 * kRadPerDeg};
+  double stroke = 1.0;  // of the bar, to either side, mm
+};
+
+struct CircleTraces {
+  Plane plane = Plane::XY;
+  double length = 0.0;
+  std::optional<double> feed{};         // mm/min
+  std::optional<double> temperature{};  // degC
+  std::vector<CircleTrace> traces{};    // ccw first
+};
+
+// What the words say goes before what is missing in the files; both must agree.
+[[nodiscard]] Result<CircleTraces> read_circle_traces(std::span<const std::filesystem::path> files,
+                                                      const CircleTraceWords& words);
+
+}  // namespace frustum::instruments

@@ -1,0 +1,38 @@
+#include "instruments/readings.hpp"
+
+namespace frustum::instruments {
+namespace {
+
+Vec3 spindle_ball(const kinematics::ForwardChain& actual, const TestPose& pose,
+                  const SetupErrors& setup) {
+  return actual.table_from_tool(pose.at).point(setup.ball);
+}
+
+}  // namespace
+
+Vec3 displacement(const kinematics::ForwardChain& actual, const TestPose& pose,
+                  const SetupErrors& setup) {
+  return spindle_ball(actual, pose, setup) - pose.spindle_ball - setup.table_ball;
+}
+
+std::vector<Vec3> displacements(const kinematics::ForwardChain& actual,
+                                std::span<const TestPose> poses, const SetupErrors& setup) {
+  std::vector<Vec3> d;
+  d.reserve(poses.size());
+  for (const TestPose& pose : poses) d.push_back(displacement(actual, pose, setup));
+  return d;
+}
+
+std::vector<double> bar_readings(const kinematics::ForwardChain& actual, const MotionTest& test,
+                                 const SetupErrors& setup) {
+  const Vec3 table_ball = test.table_ball + setup.table_ball;
+  const double length = test.bar + setup.length;
+  std::vector<double> readings;
+  readings.reserve(test.poses.size());
+  for (const TestPose& pose : test.poses) {
+    readings.push_back((spindle_ball(actual, pose, setup) - table_ball).norm() - length);
+  }
+  return readings;
+}
+
+}  // namespace frustum::instruments

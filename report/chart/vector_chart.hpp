@@ -1,0 +1,23 @@
+// Displacements in a plane as arrows on a circle, magnified.
+//
+// Units: rad, um. Errors: none; arrows that are not finite are left out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace frustum::report {
+
+struct CircleArrow {
+  double angle = 0.0;  // where on the circle
+  double x = 0.0, y = 0.0;
+};
+struct ArrowSeries {
+  std::string name{};
+  std::vector<CircleArrow> arrows{};
+};
+
+[[nodiscard]] std::string vector_figure(const std::string& title,
+                                        const std::vector<ArrowSeries>& series);
+
+}  // namespace frustum::report

@@ -1,0 +1,86 @@
+#include "report/page/motion_page.hpp"
+
+#include <fmt/format.h>
+
+#include "report/html/html_text.hpp"
+#include "report/html/page_bundle.hpp"
+#include "report/page/page_parts.hpp"
+
+namespace frustum::report {
+namespace {
+
+std::string note_of(const std::string& text) {
+  return text.empty() ? "" : "<p class=\"note\">" + html_text(text) + "</p>\n";
+}
+
+std::string trace_section(const MotionPage& page) {
+  std::string content;
+  if (!page.polar.empty()) content += polar_traces_figure("Polar trace", page.polar);
+  if (!page.arrows.empty()) {
+    content += vector_figure("Displacements in the plane of the table", page.arrows);
+  }
+  for (const TraceChart& chart : page.charts) content += trace_figure(chart);
+  return content.empty() ? "" : section("traces", "Traces", content);
+}
+
+std::string table_sections(const MotionPage& page) {
+  std::string html;
+  for (std::size_t k = 0; k < page.tables.size(); ++k) {
+    const MotionTable& each = page.tables[k];
+    Table table(each.heading, each.columns);
+    for (const auto& row : each.rows) {
+      std::vector<std::string> cells;
+      for (const std::string& cell : row) cells.push_back(html_text(cell));
+      table.row(cells);
+    }
+    html += section(fmt::format("table-{}", k + 1), html_text(each.heading),
+                    table.html() + note_of(each.note));
+  }
+  return html;
+}
+
+std::string contribution_section(const MotionPage& page) {
+  if (page.contributions.empty()) return {};
+  return section("contributions", "Ranked contributions",
+                 bar_figure("G of each term alone, and its share of the sum", page.contributions) +
+                     note_of("The sum of all exceeds G where terms cancel."));
+}
+
+std::string list_of(const std::vector<std::string>& items) {
+  if (items.empty()) return "<p>Nothing.</p>\n";
+  std::string html = "<ul>";
+  for (const std::string& each : items) html += "<li>" + html_text(each) + "</li>";
+  return html + "</ul>\n";
+}
+
+std::string told_section(const MotionPage& page) {
+  if (page.told.empty() && page.not_told.empty()) return {};
+  return section("told", "What the test tells",
+                 "<h3>Identified, whatever the set-up</h3>\n" + list_of(page.told) +
+                     "<h3>Not identified alone</h3>\n" + list_of(page.not_told));
+}
+
+}  // namespace
+
+std::string motion_html(const MotionPage& page) {
+  std::string body =
+      "<header><p class=\"brand\"><b>Frustum</b> Motion test</p>\n<div class=\"top\"><h1>" +
+      html_text(page.title) + "</h1></div><dl class=\"facts\">";
+  for (const auto& [name, value] : page.facts) body += fact(html_text(name), html_text(value));
+  body += "</dl></header>\n<main>";
+  if (!page.remarks.empty()) {
+    body += "<ul class=\"remarks\">";
+    for (const std::string& remark : page.remarks) {
+      body += "<li class=\"warning\">" + html_text(remark) + "</li>";
+    }
+    body += "</ul>\n";
+  }
+  body +=
+      trace_section(page) + table_sections(page) + contribution_section(page) + told_section(page);
+  body +=
+      "</main>\n<footer><p>Made by Frustum. The licences of the bundled packages are in the source "
+      "of this page.</p></footer>\n";
+  return filled_page(html_text(page.title), body, "{}");
+}
+
+}  // namespace frustum::report
