@@ -13,6 +13,7 @@ const std::map<std::string, Room>& rooms() {
          "interpret/moves", "interpret/cycles", "interpret/filters", "writing"}}},
       {"metrology", {2, {"fit", "points", "plan", "probing", "characteristic", "uncertainty"}}},
       {"kinematics", {3, {"model", "errors", "controller", "timing", "path"}}},
+      {"dynamics", {4}},
       {"post", {4, {"planning", "comparing"}}},
       {"lint", {4}},
       {"cutter", {4, {"body", "sweep", "search"}}},
