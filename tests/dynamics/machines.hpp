@@ -15,6 +15,9 @@ namespace frustum::dynamics {
 
 using nlohmann::json;
 
+constexpr double kUm = 1e6;      // in a metre
+constexpr double kShare = 1e-8;  // of the largest entry: the numbers have ten digits
+
 inline const json& expected() {
   static const json kNumbers = [] {
     std::ifstream in(std::string(FRUSTUM_SOURCE_DIR) + "/tests/data/dynamics.json");

@@ -14,9 +14,7 @@ namespace {
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
-constexpr double kShare = 1e-8;
 constexpr double kPoleShare = 1e-7;
-constexpr double kUm = 1e6;
 
 struct Case {
   std::string machine;
