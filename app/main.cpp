@@ -13,6 +13,6 @@ int main(int argc, char** argv) {
        .version = FRUSTUM_VERSION},
       {add_run, add_sensitivity, add_identify, add_design, add_program, add_parse, add_check,
        add_post, add_diff, add_compensate, add_pose, add_cut, add_measure, add_cmm, add_fit,
-       add_machines, add_errors, add_volumetric, add_study},
+       add_machines, add_errors, add_volumetric, add_dynamics, add_study},
       argc, argv);
 }

@@ -23,7 +23,7 @@ const std::map<std::string, Room>& rooms() {
       {"trials", {7, {"population"}}},
       {"calibration", {8, {"identify", "design", "compensate"}}},
       {"studies", {8, {"laws", "statistics", "engine", "samples", "answers"}}},
-      {"app", {9, {"job", "study", "view", "command"}}},
+      {"app", {9, {"job", "study", "dynamics", "view", "command"}}},
   };
   return kRooms;
 }
