@@ -104,6 +104,7 @@ struct DynamicModel {
   bool workpiece_on_ground = false;    // without a work chain: not on the bed
 
   [[nodiscard]] bool is_controlled() const;
+  [[nodiscard]] bool has_work_chain() const { return axes.size() > tool_axes; }
   // "bed", or the letter of the axis that moves it; body 0 is the bed.
   [[nodiscard]] std::string body_name(std::size_t body) const;
   // Index of an axis; none: the machine lacks it.

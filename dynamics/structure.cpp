@@ -146,7 +146,7 @@ void collect_elements(Structure& s, const DynamicModel& model, Drives drives) {
 }
 
 void assemble(Structure& s) {
-  const auto n = 6 * static_cast<Index>(s.bodies.size());
+  const Index n = s.coordinates();
   s.mass = MatrixXd::Zero(n, n);
   s.stiffness = s.damping = s.mass;
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
@@ -160,16 +160,14 @@ void assemble(Structure& s) {
   }
 }
 
-void find_tip(Structure& s, const DynamicModel& model, double tool_length) {
-  const bool has_work_chain = model.axes.size() > model.tool_axes;
+Pose tool_frame(const Structure& s, const DynamicModel& model) {
+  return model.tool_axes == 0 ? Pose{} : s.joints[model.tool_axes - 1].machine_from_moving;
+}
+
+void find_tip_rows(Structure& s, const DynamicModel& model) {
   const int tool = static_cast<int>(model.tool_axes);
-  const int work = has_work_chain ? static_cast<int>(model.axes.size())
-                                  : (model.workpiece_on_ground ? kGround : 0);
-  const Pose tool_frame =
-      model.tool_axes == 0 ? Pose{} : s.joints[model.tool_axes - 1].machine_from_moving;
-  s.tip_in_machine =
-      tool_frame.point((model.spindle_offset - tool_length * Vec3::UnitZ()) * kMetresPerMm);
-  if (has_work_chain) s.machine_from_table = s.joints.back().machine_from_moving.rotation;
+  const int work = model.has_work_chain() ? static_cast<int>(model.axes.size())
+                                          : (model.workpiece_on_ground ? kGround : 0);
   s.tip = MatrixXd::Zero(6, s.coordinates());
   for (Index i = 0; i < 3; ++i) {
     const Vec3 n = Vec3::Unit(i);
@@ -194,13 +192,22 @@ VectorXd ElementRow::dense(Index coordinates) const {
   return row;
 }
 
-Structure structure_at(const DynamicModel& model, const kinematics::AxisPositions& q,
-                       double tool_length, Drives drives) {
+Structure layout_at(const DynamicModel& model, const kinematics::AxisPositions& q,
+                    double tool_length, Drives drives) {
   Structure s;
   place_bodies(s, model, q);
   collect_elements(s, model, drives);
+  const Vec3 tip = (model.spindle_offset - tool_length * Vec3::UnitZ()) * kMetresPerMm;
+  s.tip_in_machine = tool_frame(s, model).point(tip);
+  if (model.has_work_chain()) s.machine_from_table = s.joints.back().machine_from_moving.rotation;
+  return s;
+}
+
+Structure structure_at(const DynamicModel& model, const kinematics::AxisPositions& q,
+                       double tool_length, Drives drives) {
+  Structure s = layout_at(model, q, tool_length, drives);
   assemble(s);
-  find_tip(s, model, tool_length);
+  find_tip_rows(s, model);
   return s;
 }
 

@@ -71,12 +71,17 @@ struct Structure {
   std::vector<JointPlace> joints{};
   std::vector<Element> elements{};
 
-  [[nodiscard]] Eigen::Index coordinates() const { return mass.rows(); }
+  [[nodiscard]] Eigen::Index coordinates() const {
+    return 6 * static_cast<Eigen::Index>(bodies.size());
+  }
   [[nodiscard]] Eigen::MatrixXd tip_displacement() const { return tip.topRows(3); }
 };
 
 enum class Drives { springs, none };  // none: controlled axes are without the springs of drives
 
+// Where everything is, without the matrices and the rows of the tip: enough for static_chain.hpp.
+[[nodiscard]] Structure layout_at(const DynamicModel& model, const kinematics::AxisPositions& q,
+                                  double tool_length, Drives drives = Drives::springs);
 [[nodiscard]] Structure structure_at(const DynamicModel& model, const kinematics::AxisPositions& q,
                                      double tool_length, Drives drives = Drives::springs);
 

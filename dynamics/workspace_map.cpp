@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/linear_algebra.hpp"
 #include "dynamics/inertial_load.hpp"
 #include "dynamics/modes.hpp"
+#include "dynamics/static_chain.hpp"
 
 namespace frustum::dynamics {
 namespace {
@@ -34,7 +34,7 @@ class PositionValues {
 
  private:
   [[nodiscard]] double tip_of(Index direction, const VectorXd& load) const {
-    return s_.tip.row(direction).dot(SymmetricFactors(s_.stiffness).solve(load));
+    return static_tip(model_, s_, load)[direction];
   }
   const DynamicModel& model_;
   const Structure& s_;
@@ -85,12 +85,14 @@ Result<WorkspaceMap> map_workspace(const DynamicModel& model, const kinematics::
   std::vector<double> values;
   const bool wants_modes =
       frequencies == Frequencies::ranges || std::holds_alternative<FrequencyQuantity>(quantity);
+  const bool needs_matrices = wants_modes || std::holds_alternative<ComplianceQuantity>(quantity);
   for (int r = 0; r < rows.count; ++r) {
     for (int c = 0; c < columns.count; ++c) {
       kinematics::AxisPositions q = held;
       q[rows.letter] = rows.at(r);
       q[columns.letter] = columns.at(c);
-      const Structure structure = structure_at(model, q, tool_length);
+      const Structure structure =
+          needs_matrices ? structure_at(model, q, tool_length) : layout_at(model, q, tool_length);
       VectorXd found;
       if (wants_modes) {
         found = natural_frequencies(structure);

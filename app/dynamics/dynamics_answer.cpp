@@ -28,13 +28,15 @@ FrequencyAnswer answer_frequency(const DynamicModel& model, const Structure& s,
                                  const ServoSystem& servo, const Eigen::MatrixXcd& loads,
                                  double frequency) {
   const dynamics::HarmonicSystem springs = harmonic_system(s, frequency);
-  FrequencyAnswer answer{.frequency = frequency, .inertial = tip_response(springs, loads)};
-  if (model.is_controlled()) {
-    answer.compliance = tip_compliance(harmonic_system(servo, frequency));
-    answer.tracking = tracking_deviation(servo, frequency);
-  } else {
-    answer.compliance = tip_compliance(springs);
-  }
+  Eigen::MatrixXcd all_loads(loads.rows(), 3 + loads.cols());
+  all_loads << springs.tip.transpose().cast<std::complex<double>>(), loads;
+  const Eigen::Matrix3Xcd answers = tip_response(springs, all_loads);
+  FrequencyAnswer answer{.frequency = frequency,
+                         .compliance = answers.leftCols(3),
+                         .inertial = answers.rightCols(loads.cols())};
+  if (!model.is_controlled()) return answer;
+  answer.compliance = tip_compliance(harmonic_system(servo, frequency));
+  answer.tracking = tracking_deviation(servo, frequency);
   return answer;
 }
 

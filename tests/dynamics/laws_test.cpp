@@ -8,6 +8,7 @@
 #include "dynamics/inertial_load.hpp"
 #include "dynamics/modes.hpp"
 #include "dynamics/response.hpp"
+#include "dynamics/static_chain.hpp"
 #include "dynamics/workspace_map.hpp"
 #include "tests/dynamics/machines.hpp"
 
@@ -127,6 +128,20 @@ RC_GTEST_PROP(ResponseLaws, IsReciprocalAndTheSumOverTheModes, ()) {
   const Mat3 sum = modes.tip * w2.cwiseInverse().asDiagonal() * modes.tip.transpose();
   const Mat3 rest = static_response(model, s).compliance;
   RC_ASSERT((sum - rest).norm() < 1e-11 * rest.norm());
+}
+
+RC_GTEST_PROP(ResponseLaws, TheChainAtRestIsTheInverseOfTheMatrix, ()) {
+  for (const char* name : {"iwf-bc", "cantilever-original"}) {
+    const DynamicModel model = model_named(name);
+    const Structure s = structure_at(model, any_position(), 150.0);
+    VectorXd load(s.coordinates());
+    for (double& f : load) f = *rc::gen::inRange(-1000, 1001);
+    load[0] += 1.0;
+    const VectorXd wanted = s.tip * SymmetricFactors(s.stiffness).solve(load);
+    const Row6 found = static_tip(model, s, load);
+    RC_ASSERT((found - wanted).head(3).norm() < 1e-10 * wanted.head(3).norm());
+    RC_ASSERT((found - wanted).tail(3).norm() < 1e-10 * wanted.tail(3).norm());
+  }
 }
 
 RC_GTEST_PROP(ResponseLaws, HasTheMassLineAndGoesOverToRest, ()) {
