@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "dynamics/body_reader.hpp"
 #include "dynamics/inertial_load.hpp"
@@ -47,10 +48,17 @@ struct Deviation {
 // The matrices of one stretch of the way.
 class Stretch {
  public:
-  Stretch(const DynamicModel& model, const AxisPositions& middle, double tool_length, double step)
-      : system_(servo_system(model, middle, tool_length)),
-        space_(state_space(system_)),
-        step_(space_.matrix, step) {}
+  Stretch(const DynamicModel& model, const AxisPositions& middle, double tool_length, double step,
+          std::size_t steps)
+      : system_(servo_system(model, middle, tool_length)), space_(state_space(system_)) {
+    // The matrices of a step cost as much as about so many steps by the series.
+    constexpr std::size_t kMany = 100;
+    if (steps > kMany) {
+      step_.emplace<TimeStep>(space_.matrix, step);
+    } else {
+      step_.emplace<SeriesStep>(space_.matrix, system_.coordinates(), step);
+    }
+  }
 
   [[nodiscard]] VectorXd begin(const Deviation& from) const {
     if (from.positions.size() == 0) return VectorXd::Zero(space_.matrix.rows());
@@ -68,13 +76,16 @@ class Stretch {
   }
   [[nodiscard]] VectorXd next(const VectorXd& state, const VectorXd& before,
                               const VectorXd& after) const {
-    return step_(state, before, after);
+    if (const auto* by_matrices = std::get_if<TimeStep>(&step_)) {
+      return (*by_matrices)(state, before, after);
+    }
+    return std::get<SeriesStep>(step_)(state, before, after);
   }
 
  private:
   ServoSystem system_;
   StateSpace space_;
-  TimeStep step_;
+  std::variant<std::monostate, TimeStep, SeriesStep> step_{};
 };
 
 // The first sample to which an axis has moved far enough from `from`; the last one otherwise.
@@ -150,7 +161,7 @@ std::vector<TipDeviation> linear_deviations(const DynamicModel& model,
   Deviation carried;
   for (std::size_t from = 0; from + 1 < samples.size();) {
     const std::size_t to = stretch_end(samples, from, renewal);
-    const Stretch stretch(model, samples[(from + to) / 2].position, tool_length, step);
+    const Stretch stretch(model, samples[(from + to) / 2].position, tool_length, step, to - from);
     VectorXd state = stretch.begin(carried);
     VectorXd before = stretch.input(model, load, samples[from]);
     for (std::size_t i = from + 1; i <= to; ++i) {

@@ -1,4 +1,6 @@
 // frustum dynamics on a shipped machine and on files that are wrong.
+#include <gmock/gmock.h>
+
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -125,6 +127,63 @@ TEST_F(DynamicsCommandSystem, NamesTheAxisOfAnUnstableControl) {
   const Outcome outcome = run("dynamics m.toml --axes Z=300");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("control of axis C is unstable"), std::string::npos) << outcome.err;
+}
+
+class DynamicsJobSystem : public DynamicsCommandSystem {
+ protected:
+  void SetUp() override {
+    DynamicsCommandSystem::SetUp();
+    ASSERT_EQ(run("program cone --machine iwf-bc --cone-angle 45 --inclination 30 --radius 40 "
+                  "--center=-65,0,150 --out c")
+                  .exit_code,
+              0);
+    replace_in("c/job.toml", "report = true", "report = false");
+    std::string program = read(folder_ / "c/cone.nc");
+    for (auto at = program.find(" F"); at != std::string::npos; at = program.find(" F", at + 1)) {
+      if (std::isdigit(static_cast<unsigned char>(program[at + 2])) == 0) continue;  // a comment
+      const auto end = program.find_first_of("\r\n ", at + 2);
+      program.replace(at, end - at, " F4000");
+    }
+    write("c/cone.nc", program);
+    job_ = read(folder_ / "c/job.toml");
+  }
+  double form(const std::string& controller) const {
+    write("c/job.toml", job_ + "\n[controller]\n" + controller);
+    const Outcome outcome = run("run c/job.toml --out c/o --json");
+    EXPECT_LT(outcome.exit_code, 2) << outcome.err;
+    const json result = json::parse(outcome.out);
+    for (const json& c : result["characteristics"]) {
+      if (c["name"] == "cone.equivalent_form") return c["value"];
+    }
+    return 0.0;
+  }
+  std::string job_;
+};
+
+TEST_F(DynamicsJobSystem, TheCutConeHasTheFormOfTheDeviation) {
+  const double plain = form("");
+  EXPECT_EQ(form("dynamics = \"off\"\n"), plain);
+  const double found = form("dynamics = \"quasi_static\"\n");
+  std::cout << "cut cone at 4000 mm/min: form " << found << " um, without dynamics " << plain
+            << " um\n";
+  EXPECT_NEAR(found / 13.205246, 1.0, 0.05);
+}
+
+TEST_F(DynamicsJobSystem, RefusesWhatDoesNotGoTogether) {
+  const auto refusal = [&](const std::string& controller) {
+    write("c/job.toml", job_ + "\n[controller]\n" + controller);
+    const Outcome outcome = run("run c/job.toml --out c/o");
+    EXPECT_EQ(outcome.exit_code, 2) << controller;
+    return outcome.err;
+  };
+  using testing::HasSubstr;
+  EXPECT_THAT(refusal("dynamics = \"lineer\"\n"), HasSubstr("did you mean linear"));
+  EXPECT_THAT(refusal("dynamics = \"linear\"\nservo_lag = true\n"), HasSubstr("two models"));
+  EXPECT_THAT(refusal("dynamics = \"linear\"\ndynamics_step = 1\n"), HasSubstr("expected"));
+  job_.replace(job_.find("\"iwf-bc\""), 8, "\"m.toml\"");
+  const std::string machine = shipped();
+  write("c/m.toml", machine.substr(0, machine.find("\n[dynamics]")));
+  EXPECT_THAT(refusal("dynamics = \"linear\"\n"), HasSubstr("states no masses and springs"));
 }
 
 }  // namespace

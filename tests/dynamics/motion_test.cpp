@@ -2,6 +2,7 @@
 
 #include "dynamics/jerk_move.hpp"
 #include "dynamics/path_response.hpp"
+#include "dynamics/time_step.hpp"
 #include "kinematics/model/inverse.hpp"
 #include "tests/dynamics/machines.hpp"
 #include "tests/kinematics/machines.hpp"
@@ -141,6 +142,24 @@ TEST(PathResponseLaws, AShortMoveIsTheMoveInFrozenMatrices) {
   const auto found = linear_deviations(model, samples, kStep, 150.0);
   for (std::size_t r = 0; r < 10; ++r) {
     EXPECT_LT((found[r * 100].tip - move.rows[r].tip).norm(), 2e-4 * move.peak.norm());
+  }
+}
+
+TEST(TimeStepLaws, SeriesAndMatricesMakeTheSameStep) {
+  for (const bool control : {false, true}) {
+    const ServoSystem system = servo_system(model_named("iwf-bc", control), {}, 150.0);
+    const StateSpace space = state_space(system);
+    const Eigen::Index n = space.matrix.rows();
+    const Eigen::VectorXd state = Eigen::VectorXd::LinSpaced(n, -1.0, 2.0);
+    const Eigen::VectorXd before = Eigen::VectorXd::LinSpaced(n, 300.0, -500.0);
+    const Eigen::VectorXd after = Eigen::VectorXd::LinSpaced(n, 900.0, 100.0);
+    for (const double seconds : {1e-5, 5e-4, 2e-3}) {
+      const Eigen::VectorXd one = TimeStep(space.matrix, seconds)(state, before, after);
+      const Eigen::VectorXd other =
+          SeriesStep(space.matrix, system.coordinates(), seconds)(state, before, after);
+      // Differences of matrices near one lose digits where the step is short.
+      EXPECT_LT((one - other).norm(), 1e-9 * one.norm()) << seconds;
+    }
   }
 }
 
