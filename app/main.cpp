@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
       {add_run,      add_sensitivity, add_identify,   add_design, add_program,
        add_parse,    add_check,       add_post,       add_diff,   add_compensate,
        add_pose,     add_cut,         add_measure,    add_cmm,    add_fit,
-       add_machines, add_errors,      add_volumetric, add_study,  add_motion},
+       add_machines, add_errors,      add_volumetric, add_study,  add_motion,
+       add_dynamics},
       argc, argv);
 }

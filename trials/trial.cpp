@@ -8,6 +8,7 @@
 
 #include "core/sha256.hpp"
 #include "core/whole_file.hpp"
+#include "dynamics/servo.hpp"
 #include "kinematics/controller/controller.hpp"
 #include "kinematics/controller/source_lines.hpp"
 #include "kinematics/errors/error_size.hpp"
@@ -140,6 +141,16 @@ void begin(const std::function<void(Stage)>& on_stage, Stage stage) {
   if (on_stage) on_stage(stage);
 }
 
+// Where the program begins: a loop that does not decay there follows no path.
+std::optional<Diagnostic> unstable_control(const TrialOptions& options,
+                                           const kinematics::CommandedProgram& program) {
+  if (!options.has_dynamics() || options.dynamics.method != dynamics::PathMethod::linear) {
+    return std::nullopt;
+  }
+  const dynamics::DynamicModel& model = *options.dynamic_model;
+  return instability(model, servo_system(model, program.start, 0.0));
+}
+
 }  // namespace
 
 Result<CommandedPiece> command_piece(const Machine& machine, const TestPiece& piece,
@@ -177,10 +188,18 @@ Result<Trial> run_trial(const Machine& machine, const GeometricErrors& errors,
                         const metrology::CmmModel& cmm, const TrialOptions& options) {
   const Diagnostics oversize = oversize_in(machine, errors, commanded.program);
   if (has_error(oversize)) return oversize;
-  auto travel = kinematics::travel(machine, setup_of(piece), commanded.program, errors,
-                                   {.path_bound = options.path_bound,
-                                    .time_law = options.time_law,
-                                    .servo_lag = options.servo_lag});
+  if (auto unstable = unstable_control(options, commanded.program)) return *std::move(unstable);
+  const kinematics::Setup setup = setup_of(piece);
+  auto travel =
+      kinematics::travel(machine, setup, commanded.program, errors,
+                         {.path_bound = options.path_bound,
+                          .time_law = options.time_law,
+                          .servo_lag = options.servo_lag,
+                          .time_step = options.has_dynamics() ? options.dynamics.time_step : 0.0});
+  if (options.has_dynamics()) {
+    travel.path =
+        with_dynamics(*options.dynamic_model, setup, std::move(travel.path), options.dynamics);
+  }
   Trial trial;
   trial.operations = commanded.operations;
   trial.warnings = commanded.warnings;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/result.hpp"
+#include "dynamics/path_deviation.hpp"
 #include "kinematics/controller/commanded_program.hpp"
 #include "kinematics/controller/setup.hpp"
 #include "kinematics/errors/error_assignment.hpp"
@@ -70,7 +71,14 @@ struct TrialOptions {
   // Where the tool goes does not depend on when, so that studies leave the limits out.
   kinematics::TimeLawOptions time_law{.limits = false};
   bool servo_lag = false;
+  // What masses and springs of the machine add to the path; without a model nothing.
+  std::shared_ptr<const dynamics::DynamicModel> dynamic_model{};
+  dynamics::PathDynamics dynamics{};
   bool find_collisions = true;
+
+  [[nodiscard]] bool has_dynamics() const {
+    return dynamic_model != nullptr && dynamics.method != dynamics::PathMethod::off;
+  }
   bool measure = true;  // false: stop with the finished workpiece
   // Called when a stage begins; for progress bars and clocks, which are above this room.
   std::function<void(Stage)> on_stage{};

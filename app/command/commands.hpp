@@ -45,6 +45,7 @@ void add_fit(Command& program);
 void add_machines(Command& program);
 void add_errors(Command& program);
 void add_volumetric(Command& program);
+void add_dynamics(Command& program);
 void add_study(Command& program);
 void add_motion(Command& program);
 

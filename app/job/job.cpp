@@ -12,6 +12,7 @@
 #include "core/toml_document.hpp"
 #include "core/whole_file.hpp"
 #include "cutter/body/cutter_file.hpp"
+#include "dynamics/model_file.hpp"
 #include "kinematics/errors/error_assignment.hpp"
 
 namespace frustum::app {
@@ -240,6 +241,22 @@ void check_error_names(const TomlTable& root, const kinematics::Machine& machine
   }
 }
 
+// Of a job that asks for it.
+std::shared_ptr<const dynamics::DynamicModel> load_dynamics(const TomlTable& root,
+                                                            const kinematics::Machine& machine,
+                                                            const fs::path& machine_file,
+                                                            Diagnostics& problems) {
+  auto model = dynamics::load_model(machine_file, machine);
+  if (!model) {
+    problems.insert(problems.end(), model.error().begin(), model.error().end());
+  } else if (!*model) {
+    root.table("controller").fail("dynamics", dynamics::no_dynamics(machine, machine_file));
+  } else {
+    return std::make_shared<const dynamics::DynamicModel>(**std::move(model));
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool want_plan) {
@@ -300,6 +317,10 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
       problems.insert(problems.end(), loaded.error().begin(), loaded.error().end());
     }
   }
+  std::shared_ptr<const dynamics::DynamicModel> dynamic_model;
+  if (machine && controller.dynamics.method != dynamics::PathMethod::off) {
+    dynamic_model = load_dynamics(root, *machine, *machine_file, problems);
+  }
   std::vector<kinematics::ErrorEntry> errors;
   if (machine) {
     check_error_names(root, *machine, written_errors.entries);
@@ -327,6 +348,7 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
              .nominal = std::move(nominal),
              .cmm = cmm,
              .controller = controller,
+             .dynamic_model = std::move(dynamic_model),
              .path_bound = path_bound,
              .mesh_pitch = mesh_pitch,
              .report = report,

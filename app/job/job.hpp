@@ -39,8 +39,9 @@ struct Job {
   std::shared_ptr<const stock::FacetSolid> nominal{};
   metrology::CmmModel cmm{};
   ControllerSettings controller{};
-  double path_bound = 1e-5;  // mm
-  double mesh_pitch = 0.0;   // mm; 0: chosen by the size of the blank
+  std::shared_ptr<const dynamics::DynamicModel> dynamic_model{};  // null: not asked for
+  double path_bound = 1e-5;                                       // mm
+  double mesh_pitch = 0.0;  // mm; 0: chosen by the size of the blank
   bool report = true;
   std::vector<std::filesystem::path> exports{};  // results in other formats
 };

@@ -19,6 +19,8 @@ Result<trials::Trial> TrialRun::trial(const Job& job, bool measure) {
   options.path_bound = job.path_bound;
   options.time_law = job.controller.time_law;
   options.servo_lag = job.controller.servo_lag;
+  options.dynamic_model = job.dynamic_model;
+  options.dynamics = job.controller.dynamics;
   options.measure = measure;
   options.on_stage = [this](trials::Stage stage) { begin(std::string(name_of(stage))); };
   auto result = run_trial(job.machine, job.errors, job.piece, job.cmm, options);

@@ -38,6 +38,8 @@ trials::TrialOptions options_of(const Job& job) {
   options.path_bound = job.path_bound;
   options.time_law = job.controller.time_law;
   options.servo_lag = job.controller.servo_lag;
+  options.dynamic_model = job.dynamic_model;
+  options.dynamics = job.controller.dynamics;
   options.find_collisions = false;
   return options;
 }
@@ -157,6 +159,10 @@ class PieceModel final : public StudyModel {
     }
     if (job.controller.servo_lag) {
       against_following_ = "the drives lag behind what is commanded";
+      return;
+    }
+    if (job.dynamic_model != nullptr) {
+      against_following_ = "masses and springs of the machine move the tool";
       return;
     }
     const Eigen::VectorXd mean = factors_.weight_moments().mean;

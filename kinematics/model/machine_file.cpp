@@ -48,7 +48,7 @@ class MachineReader {
     if (!structure) {
       // Without a structure the rest has no meaning, but its keys are known.
       for (const char* key :
-           {"datum", "spindle", "table", "axis", "alias", "controller", "bodies"}) {
+           {"datum", "spindle", "table", "axis", "alias", "controller", "bodies", "dynamics"}) {
         (void)root.has(key);
       }
       // One that is missing or no text has been reported.
@@ -84,6 +84,7 @@ class MachineReader {
     read_aliases(root, machine);
     read_controller(root, machine);
     machine.bodies_ = read_bodies(root, machine);
+    (void)root.has("dynamics");  // read by the module dynamics
     if (Diagnostics problems = document.finish(); has_error(problems)) return problems;
     return machine;
   }

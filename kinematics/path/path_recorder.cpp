@@ -95,6 +95,7 @@ void PathRecorder::sample(Pending& pending, int parts) {
   const ApproachProfile approach =
       tracker_.follow([&motion](double u) { return motion.at(u); }, parts);
   if (!pending.has_tool()) return;
+  if (options_.time_step > 0.0) pending.approach = approach;
   const auto add = [&](double u, const AxisState& axes, const ToolPose& pose) {
     pending.samples.push_back({u, pose, axes});
     last_pose_ = pose;
@@ -196,9 +197,11 @@ void PathRecorder::deliver(Pending& pending) {
       block.duration > (1.0 + kNoticed) * block.feed_duration) {
     block.limited_by = kAxisLetters.at(static_cast<std::size_t>(worst - lost.begin()));
   }
-  const std::vector<TimedPose> poses =
+  std::vector<TimedPose> poses =
       options_.servo_lag ? lagged_samples(pending, block.duration) : timed_samples(pending);
-  if (!pending.has_tool()) return;
+  has_path_ = pending.has_tool();
+  if (!has_path_) return;
+  if (pending.approach) add_even_times(pending, poses);
   // Not before: the axes may yet settle at the end of the last block.
   hand_over();
   path_.blocks.push_back(block);
@@ -221,6 +224,43 @@ std::vector<PathRecorder::TimedPose> PathRecorder::timed_samples(const Pending& 
     poses.push_back(pose);
   }
   return poses;
+}
+
+// Poses at the multiples of the time step, in among the others.
+void PathRecorder::add_even_times(const Pending& pending, std::vector<TimedPose>& poses) {
+  const BlockMotion& motion = pending.move.motion;
+  const double step = options_.time_step;
+  double begin = 0.0;
+  for (std::size_t k = 0; k < pending.segments.size(); ++k) {
+    const TimedSegment& segment = pending.segments[k];
+    const double end = segment.start + segment.duration;
+    for (double i = std::floor(segment.start / step) + 1.0; i * step < end; i += 1.0) {
+      const double share = segment.share_at(i * step);
+      const double u = begin + share * (pending.ends[k] - begin);
+      const AxisPositions q = motion.at(u);
+      const AxisState axes(q, pending.approach->at(u, q));
+      poses.push_back({pose_at(axes, pending.tool_length), axes, i * step,
+                       times(segment.per_length, segment.speed_at(i * step))});
+    }
+    begin = pending.ends[k];
+  }
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const TimedPose& a, const TimedPose& b) { return a.time < b.time; });
+}
+
+// Poses at the multiples of the time step while the axes wait with a tool.
+void PathRecorder::stand(double seconds) {
+  if (!has_path_ || path_.poses.empty() || path_.blocks.empty()) return;
+  const double step = options_.time_step;
+  std::vector<TimedPose> poses;
+  const auto add = [&](double time) {
+    poses.push_back({path_.poses.back(), path_.axes.back(), time, {}});
+  };
+  for (double i = std::floor(clock_ / step) + 1.0; i * step < clock_ + seconds; i += 1.0) {
+    add(i * step);
+  }
+  add(clock_ + seconds);
+  append(poses, true);
 }
 
 PathRecorder::TimedPose PathRecorder::lagged(const AxisPositions& commanded, double seconds,
@@ -295,6 +335,7 @@ void PathRecorder::rest(double seconds) {
   const double wait = std::max(seconds, in_position);
   law_.rest(wait);
   if (in_position > 0.0) settle(wait);
+  if (options_.time_step > 0.0 && !options_.servo_lag && wait > 0.0) stand(wait);
   clock_ = law_.now();
 }
 

@@ -34,6 +34,9 @@ struct TravelOptions {
   double path_bound = 1e-5;  // mm
   TimeLawOptions time_law{};
   bool servo_lag = false;  // the path is where the axes are behind their commands
+  // s: poses at all multiples of it, too, through rests with a tool; 0: none. Not with servo_lag,
+  // whose steps are its own.
+  double time_step = 0.0;
   PathSink sink{};  // takes the path in parts as it grows; without one the whole path is kept
 };
 
@@ -63,7 +66,8 @@ class PathRecorder {
     double reach = 0.0;        // mm above the tip up to which the bound holds
     bool starts_chain = false;
     std::vector<Sample> samples{};
-    std::vector<double> ends{};  // u at the ends of its segments
+    std::optional<ApproachProfile> approach{};  // where poses are at multiples of a time
+    std::vector<double> ends{};                 // u at the ends of its segments
     std::vector<TimedSegment> segments{};
 
     [[nodiscard]] bool has_tool() const { return move.tool != 0; }
@@ -83,6 +87,8 @@ class PathRecorder {
   void collect_times();
   void deliver(Pending& pending);
   [[nodiscard]] std::vector<TimedPose> timed_samples(const Pending& pending) const;
+  void add_even_times(const Pending& pending, std::vector<TimedPose>& poses);
+  void stand(double seconds);
   [[nodiscard]] std::vector<TimedPose> lagged_samples(const Pending& pending, double duration);
   [[nodiscard]] TimedPose lagged(const AxisPositions& commanded, double seconds, double time,
                                  double tool_length);
@@ -108,6 +114,7 @@ class PathRecorder {
   double lag_step_ = 0.0;  // s
   double lag_tool_ = 0.0;  // mm: length of the tool whose path is on
   bool lag_has_path_ = false;
+  bool has_path_ = false;  // the last motion was with a tool
 };
 
 }  // namespace frustum::kinematics

@@ -13,6 +13,7 @@ const std::map<std::string, Room>& rooms() {
          "interpret/moves", "interpret/cycles", "interpret/filters", "writing"}}},
       {"metrology", {2, {"fit", "points", "plan", "probing", "characteristic", "uncertainty"}}},
       {"kinematics", {3, {"model", "errors", "controller", "timing", "path"}}},
+      {"dynamics", {4}},
       {"instruments", {4}},
       {"post", {4, {"planning", "comparing"}}},
       {"lint", {4}},
@@ -23,7 +24,7 @@ const std::map<std::string, Room>& rooms() {
       {"trials", {7, {"population"}}},
       {"calibration", {8, {"identify", "design", "compensate"}}},
       {"studies", {8, {"laws", "statistics", "engine", "samples", "answers"}}},
-      {"app", {9, {"job", "study", "view", "motion", "command"}}},
+      {"app", {9, {"job", "study", "dynamics", "view", "motion", "command"}}},
   };
   return kRooms;
 }

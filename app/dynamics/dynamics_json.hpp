@@ -1,0 +1,27 @@
+// The answer of frustum dynamics for programs, with names that stay.
+//
+// Units  : as the names say: mm, um, Hz, N, rad; inertial compliance um/gn of linear axes and
+//          um/(rad/s^2) of rotary ones, tracking deviation m per m or rad
+// Errors : none
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/dynamics/dynamics_answer.hpp"
+
+namespace frustum::app {
+
+struct ComparedMachine {
+  std::string name{};
+  std::vector<ComparedRow> rows{};
+};
+
+// `modes`: how many modes and poles are listed at most. `compared`: none without another machine.
+[[nodiscard]] std::string dynamics_json(const kinematics::Machine& machine,
+                                        const dynamics::DynamicModel& model,
+                                        const DynamicsRequest& request,
+                                        const DynamicsAnswer& answer, std::size_t modes,
+                                        const std::optional<ComparedMachine>& compared);
+
+}  // namespace frustum::app

@@ -1,0 +1,123 @@
+#include "dynamics/body_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace frustum::dynamics {
+namespace {
+
+// Beyond these a number is in another unit: no part of a machine tool is so heavy or so wide.
+constexpr double kHeaviest = 1e7;  // kg
+constexpr double kWidest = 100.0;  // m, radius of gyration
+constexpr double kNarrowest = 1e-4;
+constexpr double kDensest = 25000.0;  // kg/m^3, of osmium 22590
+
+bool all_positive(const Vec3& v) { return (v.array() > 0.0).all(); }
+
+SolidShape read_shape(const TomlTable& table) {
+  const auto length = [&](const char* key) {
+    return table.number(key, Bound::positive) * kMetresPerMm;
+  };
+  switch (table.choice("shape", {"box", "cylinder", "prism"})) {
+    case 0: {
+      const Vec3 size = table.vector("size");
+      if (table.is_array("size") && !all_positive(size)) {
+        table.fail("size", "empty-body"_id, "the solid is empty: every size must be above 0",
+                   "size = [x, y, z] in mm");
+        return SolidBox{};
+      }
+      return SolidBox{size * kMetresPerMm};
+    }
+    case 1:
+      return SolidCylinder{length("diameter"), length("length")};
+    default:
+      break;
+  }
+  SolidPrism prism{{}, length("length")};
+  for (const auto& corner : table.rows("outline", 2)) {
+    prism.outline.emplace_back(Eigen::Vector2d(corner[0], corner[1]) * kMetresPerMm);
+  }
+  if (table.is_array("outline") && !(volume_of(prism) > 0.0)) {
+    table.fail("outline", "empty-body"_id, "the solid is empty: its outline encloses no area",
+               "three corners or more, [x, y] each, in mm");
+  }
+  return prism;
+}
+
+Solid read_solid(const TomlTable& table) {
+  Solid solid{.shape = read_shape(table)};
+  solid.at = table.vector_or("at", Vec3::Zero()) * kMetresPerMm;
+  const Vec3 turn = table.vector_or("rotation", Vec3::Zero()) * kRadPerDeg;
+  solid.rotation = rotation_z(turn.z()) * rotation_y(turn.y()) * rotation_x(turn.x());
+  if (table.has("mass") == table.has("density")) {
+    table.fail(table.has("mass") ? "density" : "mass", "conflicting-keys"_id,
+               "a solid has either a mass or a density",
+               "mass in kg, or density in kg/m^3: steel 7850, cast iron 7200");
+    return solid;
+  }
+  if (table.has("mass")) {
+    solid.mass = table.number("mass", Bound::positive);
+    return solid;
+  }
+  const double density = table.number("density", Bound::positive);
+  if (density > kDensest) {
+    table.fail("density", "out-of-range"_id,
+               fmt::format("nothing is as dense as {:g} kg/m^3", density),
+               "in kg/m^3: steel 7850, cast iron 7200, mineral casting 2400");
+  }
+  solid.mass = density * volume_of(solid.shape);
+  return solid;
+}
+
+RigidBody read_solids(const TomlTable& table) {
+  std::vector<Solid> solids;
+  for (const TomlTable& entry : table.tables("element")) solids.push_back(read_solid(entry));
+  for (const char* key : {"mass", "com", "inertia"}) {
+    if (!table.has(key)) continue;
+    table.fail(key, "conflicting-keys"_id, "the body is given by its elements",
+               "take this key away, or the elements");
+  }
+  return solids.empty() || !table.is_sound() ? RigidBody{} : body_of(solids);
+}
+
+}  // namespace
+
+RigidBody read_body(const TomlTable& table) {
+  if (table.has("element")) return read_solids(table);
+  RigidBody body;
+  body.mass = table.number("mass", Bound::positive);
+  if (body.mass > kHeaviest) {
+    table.fail("mass", "out-of-range"_id,
+               fmt::format("no part of a machine weighs {:g} kg", body.mass), "in kg");
+  }
+  body.centre = table.vector("com") * kMetresPerMm;
+  const std::vector<double> entries = table.numbers("inertia");
+  if (entries.size() != 6) {
+    if (!entries.empty()) {
+      table.fail("inertia", "wrong-type"_id,
+                 fmt::format("expected six numbers, found {}", entries.size()),
+                 "[xx, yy, zz, xy, xz, yz] in kg m^2 about the centre of mass, xy = -sum m x y");
+    }
+    return body;
+  }
+  body.inertia << entries[0], entries[3], entries[4],  //
+      entries[3], entries[1], entries[5],              //
+      entries[4], entries[5], entries[2];
+  if (!body.inertia.allFinite()) return body;
+  if (const auto why = impossible_inertia(body.inertia)) {
+    table.fail("inertia", "impossible-inertia"_id, "no body has this tensor: " + *why,
+               "[xx, yy, zz, xy, xz, yz] in kg m^2 about the centre of mass, xy = -sum m x y");
+    return RigidBody{body.mass, body.centre, Mat3::Identity()};
+  }
+  const double gyration = std::sqrt(body.inertia.trace() / body.mass);
+  if (table.is_sound() && !(gyration > kNarrowest && gyration < kWidest)) {
+    table.fail("inertia", "out-of-range"_id,
+               fmt::format("a body of {:g} kg with this tensor would be about {:.3g} m wide",
+                           body.mass, gyration),
+               "in kg m^2, which is 1e6 kg mm^2");
+  }
+  return body;
+}
+
+}  // namespace frustum::dynamics
