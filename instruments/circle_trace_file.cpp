@@ -48,7 +48,7 @@ class TraceReader {
     Runs runs;
     if (auto problem = read_rows(all.length, runs)) return problem;
     for (auto& [sense, samples] : runs) {
-      if (by_time_) spread(sense, samples);
+      if (by_time_ && !spread(sense, samples)) continue;
       check(sense, samples);
       for (const CircleTrace& other : all.traces) {
         if (other.sense != sense) continue;
@@ -176,24 +176,25 @@ class TraceReader {
     return std::nullopt;
   }
 
-  // Times to angles, evenly over the capture arc.
-  void spread(Sense sense, std::vector<Sample>& samples) {
+  // Times to angles, evenly over the capture arc; false where they do not rise.
+  bool spread(Sense sense, std::vector<Sample>& samples) {
     const double first = samples.front().place, last = samples.back().place;
     const auto& arc = words_.capture;
-    double before = first;
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+      if (samples[i].place > samples[i - 1].place) continue;
+      problems_.push_back(table_.placed(
+          error("times-fall"_id, fmt::format("time {:g} s follows {:g} s: times must rise",
+                                             samples[i].place, samples[i - 1].place)),
+          samples[i].line));
+      return false;
+    }
+    if (samples.size() < 3) return true;  // which check() tells
     for (Sample& each : samples) {
-      if (each.place < before) {
-        problems_.push_back(table_.placed(
-            error("times-fall"_id,
-                  fmt::format("time {:g} s follows {:g} s: times must rise", each.place, before)),
-            each.line));
-        return;
-      }
-      before = each.place;
       const double share = (each.place - first) / (last - first);
       each.place =
           sense == Sense::ccw ? arc.lo + share * arc.width() : arc.hi - share * arc.width();
     }
+    return true;
   }
 
   void check(Sense sense, const std::vector<Sample>& samples) {

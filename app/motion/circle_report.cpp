@@ -177,9 +177,32 @@ std::vector<double> about_centre(const CircleTrace& trace, std::vector<double> d
   return deviation;
 }
 
+// Against the position of either axis, from the centre: where cyclic errors and spikes are seen.
+void draw_over_axes(MotionAnswer& answer, const std::vector<CircleTrace>& traces,
+                    const instruments::PolarCircle& centre, instruments::Plane plane,
+                    double length) {
+  for (const auto letter : axes_of(plane)) {
+    const bool first = letter == axes_of(plane)[0];
+    report::TraceChart chart{
+        .title = fmt::format("Deviation about the fitted centre over {}", to_char(letter)),
+        .along_title = fmt::format("{} from the centre, mm", to_char(letter)),
+        .value_title = "deviation, µm"};
+    for (const CircleTrace& trace : traces) {
+      std::vector<double> along;
+      for (const double angle : trace.angle) {
+        along.push_back(length * (first ? std::cos(angle) : std::sin(angle)));
+      }
+      chart.lines.push_back({.name = std::string(name_of(trace.sense)),
+                             .along = std::move(along),
+                             .value = in_um(about_centre(trace, trace.deviation, centre))});
+    }
+    answer.page.charts.push_back(std::move(chart));
+  }
+}
+
 void draw_traces(MotionAnswer& answer, const std::vector<CircleTrace>& traces,
                  const instruments::PolarCircle& centre, const std::optional<Signature>& fitted,
-                 double length) {
+                 instruments::Plane plane, double length) {
   report::TraceChart chart{.title = "Deviation about the fitted centre over the angle",
                            .along_title = "angle, °",
                            .value_title = "deviation, µm"};
@@ -191,6 +214,7 @@ void draw_traces(MotionAnswer& answer, const std::vector<CircleTrace>& traces,
         {.name = name, .along = in_degrees(trace.angle), .value = in_um(deviation)});
   }
   answer.page.charts.push_back(std::move(chart));
+  draw_over_axes(answer, traces, centre, plane, length);
   if (!fitted) return;
   const auto rest = residuals(traces, *fitted, length);
   for (std::size_t k = 0; k < traces.size(); ++k) {
@@ -230,7 +254,8 @@ void add_circle_evaluation(MotionAnswer& answer, const std::vector<CircleTrace>&
     warn(answer, found.error());
     doc["signature"] = {};
   }
-  draw_traces(answer, traces, values->both, found ? std::optional(*found) : std::nullopt, length);
+  draw_traces(answer, traces, values->both, found ? std::optional(*found) : std::nullopt, plane,
+              length);
   answer.document["evaluation"] = doc;
 }
 

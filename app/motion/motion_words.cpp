@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <sstream>
 
 #include "app/job/axis_words.hpp"
@@ -152,7 +153,14 @@ Result<std::optional<std::vector<double>>> angle_list(const std::string& text) {
   if (text.empty()) return std::optional<std::vector<double>>{};
   auto angles = number_list(text, "--angles");
   if (!angles) return angles.error();
-  for (double& angle : *angles) angle *= kRadPerDeg;
+  constexpr double kMost = 3600.0;  // deg: ten turns to either side
+  for (double& angle : *angles) {
+    if (std::abs(angle) > kMost) {
+      return error("out-of-range"_id,
+                   fmt::format("{:g} deg in --angles: expected at most {:g}", angle, kMost));
+    }
+    angle *= kRadPerDeg;
+  }
   return std::optional(*std::move(angles));
 }
 

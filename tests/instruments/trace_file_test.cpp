@@ -164,8 +164,8 @@ TEST_F(TraceFiles, FaultsOfLinesHaveTheirLine) {
   EXPECT_EQ(line_fault("run,direction,target_mm\n1,up,0\n"), "missing-column:1");
 }
 
-// A machine that the evaluation does not know, a noisy bar, three ways to write its trace: squareness
-// and backlash are within their stated intervals as often as they should be.
+// A machine that the evaluation does not know, a noisy bar, three ways to write its trace:
+// squareness and backlash are within their stated intervals as often as they should be.
 TEST_F(TraceFiles, BlindTracesAreWithinTheirIntervals) {
   const RandomKey key{.seed = 2024};
   constexpr int kMachines = 300;
