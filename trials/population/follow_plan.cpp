@@ -273,12 +273,13 @@ class Planner {
         best = {*face, *solution, k};
       }
     }
-    // As far apart as an edge and the planes beside it may be, for a ball.
-    constexpr double kSame = 5e-3;
+    // A ball on the edge of two facets touches it beside where it would touch each of them: by its
+    // radius times the angle between them, which is below a degree.
+    constexpr double kFacets = 0.02;
     if (!best) return std::nullopt;
     const Vec3 centre = line.touching + best->solution.travel * line.normal;
     const Vec3 touched = centre + line.ball * best->solution.centre.out;
-    if (!((touched - contact.touched).norm() < kSame)) return std::nullopt;
+    if (!((touched - contact.touched).norm() < kFacets * line.ball)) return std::nullopt;
     return best;
   }
 
