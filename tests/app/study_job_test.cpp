@@ -1,8 +1,8 @@
 // The cone job of Table 3.9, NC program to inspection plan, against the independent computation on
 // the tip's ring: draw by draw and in distribution.
-#include "app/study/study_file.hpp"
 #include "app/study/study_model.hpp"
 #include "studies/statistics/order_statistics.hpp"
+#include "tests/app/cone_alone.hpp"
 #include "tests/law_count.hpp"
 #include "tests/studies/populations.hpp"
 
@@ -10,24 +10,6 @@ namespace frustum::app {
 namespace {
 
 constexpr std::uint32_t kDraws = 10'000;
-
-Result<StudyFile> cone_study(const char* setup, char read) {
-  return load_study_file(std::string(FRUSTUM_SOURCE_DIR) + "/examples/bossoni-study/" + setup +
-                             (read == 'A' ? "-a.toml" : "-r.toml"),
-                         {});
-}
-
-// The same program with a plan of the cone's first two sections alone, approached as planned.
-void measure_the_cone_alone(StudyFile& study) {
-  auto& plan = study.job->piece.plan;
-  std::erase_if(plan.features, [](const auto& feature) { return feature.name != "cone"; });
-  std::get<metrology::SectionStrategy>(plan.features.front().strategy).sections.resize(2);
-  std::erase_if(plan.characteristics, [](const auto& c) {
-    return c.name != "cone.equivalent_form" && c.name != "cone.half_angle";
-  });
-  plan.datum.reset();
-  study.characteristics = characteristics_of(plan);
-}
 
 // Values of one characteristic to first order.
 std::vector<double> linear_values(const StudyFile& study, const StudyModel& model,
