@@ -84,8 +84,8 @@ Controls controls_of(const StudyFile& study, const StudyModel& model, const Samp
     if (!controls.failure.empty() || study.engine != EngineKind::automatic) continue;
     if (least_bound <= kLargestBound) continue;
     controls.refusal = fmt::format(
-        "whole trials differ from the linear model by {:.3g} um in {} draws, so that its bound is "
-        "above {:g} um",
+        "whole trials differ from the linear model by as much as {:.3g} um in the first {} draws: "
+        "its bound is above {:g} um",
         least_bound / kBoundOfDifference, controls.values.front().full.size(), kLargestBound);
     return controls;
   }

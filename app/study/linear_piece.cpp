@@ -18,7 +18,7 @@ using studies::LinearCharacteristic;
 
 constexpr std::uint32_t kCheckedDraws = 3;
 // Points of a feature that show how far a draw is from the middle.
-constexpr Eigen::Index kReachPoints = 16;
+constexpr Eigen::Index kReachPoints = 64;
 
 std::string words_of(const Diagnostics& problems) {
   std::string text;

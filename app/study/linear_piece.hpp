@@ -43,7 +43,7 @@ class LinearPiece {
 
   // Why the surface is not linear in the errors; empty: it is.
   [[nodiscard]] const std::string& against() const { return against_; }
-  // Points that show how far a draw is from the middle: of each feature at most 16, evenly taken.
+  // Points that show how far a draw is from the middle: of each feature at most 64, evenly taken.
   [[nodiscard]] const Eigen::MatrixXd& reach_gains() const { return reach_gains_; }
   // All characteristics, then the largest motion of those points; none where one is not linear.
   [[nodiscard]] const studies::LinearEngine* engine() const { return engine_.get(); }

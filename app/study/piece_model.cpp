@@ -5,12 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <mutex>
 #include <optional>
 
 #include "app/study/linear_piece.hpp"
-#include "core/toml_document.hpp"
+#include "app/study/place_in_file.hpp"
 #include "core/units.hpp"
 #include "kinematics/path/approach_direction.hpp"
 #include "metrology/cmm.hpp"
@@ -21,7 +20,6 @@
 namespace frustum::app {
 namespace {
 
-namespace fs = std::filesystem;
 using kinematics::GeometricErrors;
 
 std::string joined(const Diagnostics& problems) {
@@ -120,31 +118,15 @@ class PieceModel final : public StudyModel {
     }
     std::vector<DrawOutcome> outcomes(draws.size());
     tbb::parallel_for(std::size_t{0}, draws.size(), [&](std::size_t i) {
-      outcomes[i] = linear_.moved(weights_of(draws[i], request.scale));
+      outcomes[i] = linear_.moved(weights_of(factors_, draws[i], request.scale));
     });
     return outcomes;
   }
   std::vector<double> linear_points(const DrawnMachine& machine) const override {
-    return linear_.points(weights_of(machine, 1.0));
+    return linear_.points(weights_of(factors_, machine, 1.0));
   }
 
  private:
-  Eigen::VectorXd weights_of(const DrawnMachine& machine, double scale) const {
-    Eigen::VectorXd weights(static_cast<Eigen::Index>(factors_.columns().size()));
-    factors_.weights(machine.values, {weights.data(), factors_.columns().size()});
-    return scale * weights;
-  }
-
-  Result<GeometricErrors> errors_of(const DrawnMachine& machine, double scale) const {
-    if (scale == 1.0) return factors_.errors_at(study_.machine(), machine.values);
-    const Eigen::VectorXd weights = weights_of(machine, scale);
-    GeometricErrors errors = factors_.fixed();
-    for (std::size_t j = 0; j < factors_.columns().size(); ++j) {
-      errors = errors.plus(factors_.columns()[j].unit, weights[static_cast<Eigen::Index>(j)]);
-    }
-    return errors;
-  }
-
   // Made when the first draw asks for it; nullptr where every draw must be a whole trial.
   const trials::Population* population() const {
     std::call_once(population_once_, [this] { make_population(); });
@@ -192,7 +174,7 @@ class PieceModel final : public StudyModel {
                                     const EvaluationRequest& request) const {
     std::vector<trials::Weights> weights;
     for (const DrawnMachine& machine : draws) {
-      const Eigen::VectorXd of_draw = weights_of(machine, request.scale);
+      const Eigen::VectorXd of_draw = weights_of(factors_, machine, request.scale);
       weights.emplace_back(of_draw.begin(), of_draw.end());
     }
     trials::EvaluateOptions options{.travels = request.points};
@@ -240,7 +222,7 @@ class PieceModel final : public StudyModel {
       cmm = job.cmm;
       cmm.draw = machine.draw;
     }
-    const auto errors = errors_of(machine, request.scale);
+    const auto errors = errors_of(factors_, study_.machine(), machine, request.scale);
     const auto trial = errors ? trials::run_trial(job.machine, *errors, job.piece, commanded_, cmm,
                                                   options_of(job))
                               : Result<trials::Trial>(errors.error());
@@ -277,27 +259,6 @@ GeometricErrors errors_of_middle(const studies::FactorSet& factors) {
   return errors;
 }
 
-// The same problem at the limit that a study file or a plan states; nothing where it states none.
-std::optional<Diagnostic> at_limit(const fs::path& file, std::string_view list,
-                                   const std::string& name, const Diagnostic& problem) {
-  const auto document = TomlDocument::load(file);
-  if (!document) return std::nullopt;
-  const TomlTable& root = document->root();
-  if (list == "limits") {
-    const auto limits = root.table_if(list);
-    if (!limits || !limits->has(name)) return std::nullopt;
-    limits->fail(name, problem);
-  } else {
-    for (const TomlTable& planned : root.tables(list)) {
-      if (planned.text_or("name", "") == name) planned.fail("tolerance", problem);
-    }
-  }
-  for (Diagnostic& noted : document->finish()) {
-    if (noted.id == problem.id) return std::move(noted);
-  }
-  return std::nullopt;
-}
-
 // The nominal machine must make a good part, or the study says nothing about machines.
 Diagnostics problems_of_nominal(const StudyFile& study, const trials::Trial& trial) {
   Diagnostics problems;
@@ -314,8 +275,10 @@ Diagnostics problems_of_nominal(const StudyFile& study, const trials::Trial& tri
               fmt::format("the machine without errors makes {} = {:.4g} {}, limit {:g} {}", c.name,
                           values[i], c.unit(), *c.limit, c.unit()),
               "check program, plan and limits: frustum run shows what is wrong");
-    auto placed = at_limit(study.file, "limits", c.name, fails);
-    if (!placed) placed = at_limit(study.job->plan_file, "characteristic", c.name, fails);
+    auto placed = at_key(study.file, "limits", c.name, fails);
+    if (!placed) {
+      placed = at_key_of(study.job->plan_file, "characteristic", c.name, "tolerance", fails);
+    }
     problems.push_back(placed.value_or(fails));
   }
   return problems;

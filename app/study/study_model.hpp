@@ -78,6 +78,14 @@ class StudyModel {
   [[nodiscard]] virtual std::vector<double> linear_points(const DrawnMachine&) const { return {}; }
 };
 
+// Weights of all columns, all of them scaled.
+[[nodiscard]] Eigen::VectorXd weights_of(const studies::FactorSet& factors,
+                                         const DrawnMachine& machine, double scale);
+// Everything that is drawn scaled, what is not as it is.
+[[nodiscard]] Result<kinematics::GeometricErrors> errors_of(const studies::FactorSet& factors,
+                                                            const kinematics::Machine& on,
+                                                            const DrawnMachine& machine,
+                                                            double scale);
 // What an engine as StudyModel::linear_engine() has it says of these machines.
 [[nodiscard]] std::vector<DrawOutcome> in_lanes(const studies::LinearEngine& engine,
                                                 const studies::FactorSet& factors,

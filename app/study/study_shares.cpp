@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "app/study/place_in_file.hpp"
 #include "app/study/sampler.hpp"
 #include "core/units.hpp"
 #include "studies/answers/allocation.hpp"
@@ -124,37 +125,57 @@ studies::AllocationResult allocation_of(const StudyFile& study, const StudyModel
   return result;
 }
 
-}  // namespace
-
 Result<std::vector<FactorGroup>> share_groups(const StudyFile& study, const StudyModel& model) {
   if (study.questions.groups.empty()) return studies::groups_by_entry(model.factors());
   return studies::groups_named(study.machine(), model.factors(), study.questions.groups);
 }
 
-Diagnostics add_shares(const StudyFile& study, const StudyModel& model, const SampleColumns&,
-                       StudyResult& result) {
+}  // namespace
+
+Diagnostics unanswerable_shares(const StudyFile& study, const StudyModel& model) {
+  Diagnostics problems;
+  const auto note = [&](std::string_view table, std::string_view key, const Diagnostic& problem) {
+    problems.push_back(at_key(study.file, table, key, problem).value_or(problem));
+  };
   const StudyQuestions& asked = study.questions;
-  if (!asked.shares && !asked.allocation) return {};
-  const auto groups = share_groups(study, model);
-  if (!groups) return groups.error();
+  if (const auto groups = share_groups(study, model); !groups) {
+    for (const Diagnostic& problem : groups.error()) note("shares", "groups", problem);
+  }
   if (asked.shares) {
     const std::size_t c = asked_characteristic(study, asked.share_characteristic);
-    const auto view = model.linear_view(c);
-    if (!view) return {no_linear_view(study, c)};
-    result.shares.push_back(shares_of(study, model, c, *view, *groups));
+    if (!model.linear_view(c)) note("shares", "characteristic", no_linear_view(study, c));
+  }
+  if (asked.allocation) {
+    const std::size_t c = asked_characteristic(study, asked.allocation->characteristic);
+    if (!model.linear_view(c)) note("allocate", "characteristic", no_linear_view(study, c));
+    if (!study.characteristics[c].limit) {
+      note("allocate", "characteristic",
+           error("no-limit"_id,
+                 study.characteristics[c].name + " has no limit to allocate tolerances for",
+                 "give it one in [limits]"));
+    }
+  }
+  return problems;
+}
+
+void add_shares(const StudyFile& study, const StudyModel& model, StudyResult& result) {
+  const StudyQuestions& asked = study.questions;
+  if (!asked.shares && !asked.allocation) return;
+  const auto groups = share_groups(study, model);
+  if (!groups) return;
+  if (asked.shares) {
+    const std::size_t c = asked_characteristic(study, asked.share_characteristic);
+    if (const auto view = model.linear_view(c)) {
+      result.shares.push_back(shares_of(study, model, c, *view, *groups));
+    }
   }
   if (asked.allocation) {
     const std::size_t c = asked_characteristic(study, asked.allocation->characteristic);
     const auto view = model.linear_view(c);
-    if (!view) return {no_linear_view(study, c)};
-    if (!study.characteristics[c].limit) {
-      return {error("no-limit"_id,
-                    study.characteristics[c].name + " has no limit to allocate tolerances for",
-                    "give it one in [limits]")};
+    if (view && study.characteristics[c].limit) {
+      result.allocation = allocation_of(study, model, c, *view, *groups);
     }
-    result.allocation = allocation_of(study, model, c, *view, *groups);
   }
-  return {};
 }
 
 }  // namespace frustum::app

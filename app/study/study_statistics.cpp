@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "app/study/place_in_file.hpp"
 #include "app/study/study_map.hpp"
 #include "app/study/study_shares.hpp"
 #include "app/study/volumetric_model.hpp"
@@ -143,9 +145,12 @@ Diagnostics unanswerable(const StudyFile& study, const StudyModel& model) {
                                "[measurement] u = \"0.6 um\", or a CMM with its e0 in the job"));
     }
   }
-  if (const auto groups = share_groups(study, model); !groups) {
-    problems.insert(problems.end(), groups.error().begin(), groups.error().end());
+  if (const auto scheme = scheme_of(study, model); !scheme) {
+    for (const Diagnostic& problem : scheme.error()) {
+      problems.push_back(at_key(study.file, "", "scheme", problem).value_or(problem));
+    }
   }
+  std::ranges::move(unanswerable_shares(study, model), std::back_inserter(problems));
   for (Diagnostic& d : problems) {
     if (d.file.empty()) d.file = study.file.string();
   }
@@ -189,9 +194,7 @@ Result<StudyResult> result_of(const StudyFile& study, const StudyModel& model,
     result.characteristics.push_back(std::move(of));
   }
   if (has_limit && count > 0) result.joint = joint_of(study, samples, count);
-  if (auto problems = add_shares(study, model, samples, result); !problems.empty()) {
-    return problems;
-  }
+  add_shares(study, model, result);
   auto map = map_of(study);
   if (!map) return map.error();
   result.map = *std::move(map);

@@ -4,8 +4,8 @@
 //            failed makes no part, so that it counts as one that does not conform
 // Units    : um, urad
 // Shape    : one result a characteristic, in the order of the plan
-// Errors   : samples that are missing; risks without a measuring uncertainty; groups that are
-//            unknown
+// Errors   : samples that are missing; a scheme with too few dimensions; risks without a
+//            measuring uncertainty; groups that are unknown
 // Accuracy : the same bits for any number of threads
 // Source   : ours
 #pragma once
@@ -29,7 +29,7 @@ struct StopState {
                                                  const studies::Scheme& scheme,
                                                  const SampleColumns& samples);
 
-// Before any draw is made: what is asked for can be answered.
+// Before any draw is made: the scheme can draw so much, and what is asked for can be answered.
 [[nodiscard]] Diagnostics unanswerable(const StudyFile& study, const StudyModel& model);
 
 [[nodiscard]] Result<studies::StudyResult> result_of(const StudyFile& study,

@@ -64,12 +64,14 @@ std::string table_section(const StudyPage& page) {
 // Boxes of one unit share a scale.
 std::string box_section(const StudyPage& page) {
   std::map<std::string, std::vector<BoxRow>> by_unit;
-  std::string csv = "characteristic,unit,min,q1,median,q3,max,limit\n";
+  std::string csv = "characteristic,unit,min,q1,median,q3,max,lower_limit,upper_limit\n";
   for (const StudyPageCharacteristic& c : page.characteristics) {
     by_unit[c.unit].push_back(c.box);
-    csv += fmt::format("{},{},{},{},{},{},{},{}\n", csv_field(c.name), c.unit, c.box.min, c.box.low,
-                       c.box.middle, c.box.high, c.box.max,
-                       c.box.limits.empty() ? "" : fmt::format("{}", c.box.limits.back()));
+    const auto& limits = c.box.limits;  // upper, or lower and upper
+    csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_field(c.name), c.unit, c.box.min,
+                       c.box.low, c.box.middle, c.box.high, c.box.max,
+                       limits.size() < 2 ? "" : fmt::format("{}", limits.front()),
+                       limits.empty() ? "" : fmt::format("{}", limits.back()));
   }
   std::string content;
   for (const auto& [unit, rows] : by_unit) {

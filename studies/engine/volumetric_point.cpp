@@ -1,9 +1,5 @@
 #include "studies/engine/volumetric_point.hpp"
 
-#include <tbb/parallel_for.h>
-
-#include <algorithm>
-
 #include "kinematics/errors/error_gain.hpp"
 
 namespace frustum::studies {
@@ -43,28 +39,6 @@ std::optional<NormalLength> exact_length(const VolumetricPoint& point, const Fac
   const WeightMoments moments = set.weight_moments();
   return NormalLength(point.fixed + point.gains * moments.mean,
                       point.gains * moments.covariance * point.gains.transpose());
-}
-
-std::vector<double> volumetric_lengths(const VolumetricPoint& point, const FactorSet& set,
-                                       const Scheme& scheme, std::uint64_t seed,
-                                       std::uint32_t first, std::uint32_t count) {
-  constexpr std::uint32_t kBlock = 1024;
-  std::vector<double> lengths(count);
-  tbb::parallel_for(std::uint32_t{0}, (count + kBlock - 1) / kBlock, [&](std::uint32_t block) {
-    std::vector<double> u(set.variables().size()), values(u.size()), weights(set.columns().size());
-    const std::uint32_t end = std::min(count, (block + 1) * kBlock);
-    for (std::uint32_t d = block * kBlock; d < end; ++d) {
-      if (scheme.kind() == SchemeKind::random) {
-        set.draw(seed, first + d, values);
-      } else {
-        scheme.point(first + d, u);
-        set.from_uniform(u, values);
-      }
-      set.weights(values, weights);
-      lengths[d] = point.length(weights);
-    }
-  });
-  return lengths;
 }
 
 }  // namespace frustum::studies

@@ -13,19 +13,17 @@
 
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "core/pose.hpp"
 #include "kinematics/model/machine.hpp"
 #include "studies/laws/factors.hpp"
-#include "studies/laws/scheme.hpp"
 #include "studies/statistics/normal_length.hpp"
 
 namespace frustum::studies {
 
 struct VolumetricPoint {
-  Vec3 fixed = Vec3::Zero();                         // um, of the errors that are not drawn
-  Eigen::Matrix<double, 3, Eigen::Dynamic> gains{};  // um per mm or rad
+  Vec3 fixed = Vec3::Zero();  // um, of the errors that are not drawn
+  Eigen::MatrixXd gains{};    // um per mm or rad, three rows
 
   [[nodiscard]] double length(std::span<const double> weights) const;
 };
@@ -38,11 +36,5 @@ struct VolumetricPoint {
 // |E| where it is exact: every drawn amount is one normal number that nothing cuts.
 [[nodiscard]] std::optional<NormalLength> exact_length(const VolumetricPoint& point,
                                                        const FactorSet& set);
-
-// |E| of draws first .. first + count - 1, um.
-[[nodiscard]] std::vector<double> volumetric_lengths(const VolumetricPoint& point,
-                                                     const FactorSet& set, const Scheme& scheme,
-                                                     std::uint64_t seed, std::uint32_t first,
-                                                     std::uint32_t count);
 
 }  // namespace frustum::studies

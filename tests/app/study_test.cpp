@@ -220,6 +220,7 @@ TEST_F(StudySystem, RisksAndSharesAreAsked) {
                       "[shares]\ngroups = { angles = [\"E[ABC]?\"], rest = [\"E[XYZ]?\"] }\n");
   const Outcome refused = run("study v.toml --samples 2000");
   EXPECT_EQ(refused.exit_code, 2) << "no such patterns";
+  EXPECT_THAT(refused.err, HasSubstr("error: shares.groups: "));
   std::string text = read(folder_ / "v.toml");
   const std::string from = "{ angles = [\"E[ABC]?\"], rest = [\"E[XYZ]?\"] }";
   text.replace(text.find(from), from.size(),
@@ -353,6 +354,7 @@ TEST_F(StudySystem, RefusesMoreDrawnNumbersThanASobolSequenceHas) {
   write("s.toml", study);
   const Outcome many = run("study s.toml --samples 10");
   EXPECT_EQ(many.exit_code, 2);
+  EXPECT_THAT(many.err, HasSubstr("s.toml:3:1: error: scheme: the errors have"));
   EXPECT_THAT(many.err, HasSubstr("drawn numbers, a Sobol sequence at most 3667"));
 }
 

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "core/base64.hpp"
 #include "report/page/study_page.hpp"
 
 namespace frustum::report {
@@ -55,7 +56,12 @@ TEST(StudyPage, DrawsBothLimitsOfDeviationsOfEitherSign) {
   page.characteristics = {form()};
   page.characteristics[0].box.limits = {-6.0, 6.0};
   page.characteristics[0].distribution.limits.clear();
-  EXPECT_EQ(count(study_html(page), "class=\"limit\""), 2U);
+  const std::string html = study_html(page);
+  EXPECT_EQ(count(html, "class=\"limit\""), 2U);
+  const std::string csv =
+      "characteristic,unit,min,q1,median,q3,max,lower_limit,upper_limit\na<b,um,1,2,3,4,9,-6,6\n";
+  EXPECT_THAT(html,
+              HasSubstr(base64({reinterpret_cast<const unsigned char*>(csv.data()), csv.size()})));
 }
 
 TEST(StudyPage, NamesRisksThatAreTooRareForAPicture) {

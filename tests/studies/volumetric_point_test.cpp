@@ -107,14 +107,16 @@ TEST(VolumetricPoint, DrawnLengthsAreThoseOfTheExactChain) {
   at[AxisLetter::Z] = -200.0;
   at[AxisLetter::B] = 0.4;
   const VolumetricPoint point = volumetric_point(machine, *set, at, 150.0);
-  const auto lengths =
-      volumetric_lengths(point, *set, *Scheme::make(SchemeKind::random, 1, {}), 1, 0, 20);
+  std::vector<double> values(set->variables().size()), weights(set->columns().size());
   const Pose nominal = kinematics::nominal_pose(machine, at, 150.0);
   for (std::uint32_t d = 0; d < 20; ++d) {
     const auto errors = kinematics::resolve(machine, kinematics::draw(entries, 1, d));
     ASSERT_TRUE(errors);
     const Pose actual = kinematics::actual_pose(machine, *errors, {at}, 150.0);
-    EXPECT_NEAR(lengths[d], 1e3 * (actual.translation - nominal.translation).norm(), 0.01);
+    set->draw(1, d, values);
+    set->weights(values, weights);
+    EXPECT_NEAR(point.length(weights), 1e3 * (actual.translation - nominal.translation).norm(),
+                0.01);
   }
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 using kinematics::ErrorEntry;
 
-// The cone in 250 blocks a turn, measured at points of three sections, or with its datum system.
+// The cone in 250 blocks a turn or in finer chords (mm), measured at points of three sections, or with its datum system.
 struct ConePopulation {
   kinematics::Machine machine;
   programs::TestPiece piece{};
@@ -23,11 +23,12 @@ struct ConePopulation {
   std::vector<ErrorEntry> entries{};
   PopulationLaws laws{};
 
-  static ConePopulation of(int points, bool with_datums, const std::string& errors = {}) {
+  static ConePopulation of(int points, bool with_datums, const std::string& errors = {},
+                           double chord = 3e-3) {
     auto machine =
         *kinematics::Machine::load(std::string(FRUSTUM_SOURCE_DIR) + "/machines/iwf-bc.toml");
     programs::ConeFrustum cone;
-    cone.chord_tolerance = {3e-3};
+    cone.chord_tolerance = {chord};
     auto piece = *programs::cone_frustum(cone, machine);
     auto& plan = piece.plan;
     std::erase_if(plan.features, [&](const auto& f) {
@@ -130,6 +131,19 @@ TEST(PopulationLaws, FollowWholeTrialsOfErrorsTenTimesLarger) {
 // The points at which the lanes are in doubt: the ball rests where facets meet.
 TEST(Population, SweepsNearByWhatAWholeTrialMakes) {
   expect_equal_to_whole_trials(ConePopulation::of(40, false), 1, 1.0);
+}
+
+// Half a degree beside them the cutter comes and goes along straight tangents, which are microns
+// off the cone in the middle of segments of 18 mm.
+TEST(Population, FollowsPointsBesideThePassesInAndOut) {
+  const auto cone = ConePopulation::of(360, false, {}, 1e-4);
+  const Population population = cone.population();
+  EXPECT_TRUE(population.reasons().empty());
+  std::size_t whole = 0;
+  const auto draws = cone.draws(8);
+  for (const PopulationMember& member : population.evaluate(draws)) whole += member.whole;
+  EXPECT_EQ(whole, 0U);
+  expect_equal_to_whole_trials(cone, proof::law_count(20U, 1U), 1.0);
 }
 
 TEST(Population, SweepingNearByAsksHardlyAPointOfTheWholeProgram) {

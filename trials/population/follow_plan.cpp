@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "core/golden_section.hpp"
 #include "cutter/sweep/segment_motion.hpp"
 #include "metrology/plan/strategy.hpp"
 #include "trials/population/column_motion.hpp"
@@ -25,12 +26,12 @@ using kinematics::ToolPose;
 // The surroundings of a contact reach to where the cutter is so far off (mm), and no farther than
 // so many blocks.
 constexpr double kSurroundings = 0.05;
-constexpr std::uint32_t kMostBlocks = 16;
+constexpr std::uint32_t kMostBlocks = 64;
 // Where the path comes as near as this once more (mm), that counts among them: other passes leave
 // an allowance of more.
 constexpr double kVisit = 0.045;
 // More pieces are no window: then the contact is looked for in its surroundings.
-constexpr std::uint32_t kMostWindow = 8;
+constexpr std::uint32_t kMostWindow = 24;
 // A window is wide enough when machines at this share of the proof's limits are proven; they drift
 // by so many standard deviations.
 constexpr double kShare = 0.7;
@@ -173,14 +174,23 @@ class Planner {
       const kinematics::PathSegment& segment = path_.segments[s];
       if (is_in(ranges, segment.block) || path_.blocks[segment.block].tool != contact.tool)
         continue;
-      const auto is_near = [&](const ToolPose& pose) {
-        return body(contact.tool).distance(pose, contact.touched) < kVisit;
-      };
-      const ToolPose &from = path_.from(segment), &to = path_.to(segment);
-      if (is_near(from) || is_near(to) || is_near(kinematics::between(from, to, 0.5))) {
+      if (least_distance(segment, contact) < kVisit) {
         ranges.push_back(around(segment.block, contact));
       }
     }
+  }
+
+  // A cutter that moves straight is at a distance that is a convex function of time.
+  [[nodiscard]] double least_distance(const kinematics::PathSegment& segment,
+                                      const Found& contact) const {
+    const ToolPose &from = path_.from(segment), &to = path_.to(segment);
+    const auto distance = [&](double t) {
+      return body(contact.tool).distance(kinematics::between(from, to, t), contact.touched);
+    };
+    const double ends = std::min(distance(0.0), distance(1.0));
+    if (ends < kVisit) return ends;
+    constexpr double kTime = 1e-3;  // of a segment: 1e-5 mm of a distance that is curved
+    return std::min(ends, golden_section(distance, 0.0, 1.0, kTime).value);
   }
 
   [[nodiscard]] std::uint32_t begin_of(std::uint32_t block) const {
@@ -263,12 +273,13 @@ class Planner {
         best = {*face, *solution, k};
       }
     }
-    // As far apart as an edge and the planes beside it may be, for a ball.
-    constexpr double kSame = 5e-3;
+    // A ball on the edge of two facets touches it beside where it would touch each of them: by its
+    // radius times the angle between them, which is below a degree.
+    constexpr double kFacets = 0.02;
     if (!best) return std::nullopt;
     const Vec3 centre = line.touching + best->solution.travel * line.normal;
     const Vec3 touched = centre + line.ball * best->solution.centre.out;
-    if (!((touched - contact.touched).norm() < kSame)) return std::nullopt;
+    if (!((touched - contact.touched).norm() < kFacets * line.ball)) return std::nullopt;
     return best;
   }
 
@@ -408,9 +419,10 @@ class Planner {
     const double drift = kDriftDeviations * bounds_.drift_deviation(at);
     std::size_t first = deepest, last = deepest;
     const auto is_enough = [&](const SideBound& side) {
+      const double nearer =
+          kDriftDeviations * side.drift_deviation + 0.5 * drift * drift / side.rho;
       return side.at_end > 0.0 && side.closeness.per_scale + side.closeness.per_drift * drift +
-                                          side.closeness.per_nearer *
-                                              (side.lean * drift + 0.5 * drift * drift / side.rho) <
+                                          side.closeness.per_nearer * nearer <
                                       kShare;
     };
     const auto side_at = [&](std::uint32_t end, bool up) {

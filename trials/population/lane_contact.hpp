@@ -71,7 +71,7 @@ struct ProbeWindow {
   Closeness others{};
 };
 // No window has more.
-inline constexpr std::uint32_t kMostWindowPieces = 24;
+inline constexpr std::uint32_t kMostWindowPieces = 48;
 
 struct WindowTables {
   std::vector<LaneFace> faces{};

@@ -128,14 +128,19 @@ std::vector<Vec3> WindowBounds::motions(const kinematics::AxisState& state, int 
   return motions;
 }
 
-double WindowBounds::drift_deviation(const ContactPlace& at) const {
+double WindowBounds::deviation(const std::function<double(const Vec3&)>& size,
+                               const ContactPlace& at) const {
   double variance = 0.0;
   for (std::size_t j = 0; j < at.motions.size(); ++j) {
     // As if all laws were uniform.
-    const double by = columns_.limits()[j] * across(at.motions[j], at.normal).norm();
+    const double by = columns_.limits()[j] * size(at.motions[j]);
     variance += by * by / 3.0;
   }
   return std::sqrt(variance);
+}
+
+double WindowBounds::drift_deviation(const ContactPlace& at) const {
+  return deviation([&](const Vec3& motion) { return across(motion, at.normal).norm(); }, at);
 }
 
 const WindowBounds::Motions& WindowBounds::motions_at(Known& known, std::uint32_t id,
@@ -185,6 +190,7 @@ SideBound WindowBounds::side(const ContactPlace& at, const LaneFace& face, int t
   side.rho = at_end.rho;
   const Vec3 lean = across(at_end.out, at.normal);
   side.lean = lean.norm();
+  side.drift_deviation = deviation([&](const Vec3& motion) { return motion.dot(lean); }, at);
   if (!(side.at_end > 0.0)) return side;
   side.closeness.per_nearer = 1.0 / side.at_end;
   const std::vector<double> by_end =

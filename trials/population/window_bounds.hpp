@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <span>
 #include <vector>
@@ -53,7 +54,9 @@ struct SideBound {
   Closeness closeness{};
   double at_end = 0.0;  // mm, of the contact from the cutter there
   double lean = 0.0;    // sine of the angle between the normals there and at the contact
-  double rho = 1.0;     // mm, from the tool's axis
+  // mm, of what the contact comes nearer to the end by drifting, over the population.
+  double drift_deviation = 0.0;
+  double rho = 1.0;  // mm, from the tool's axis
 };
 
 class WindowBounds {
@@ -79,6 +82,9 @@ class WindowBounds {
   using Motions = std::vector<std::array<float, 6>>;
   using Known = std::map<std::uint32_t, Motions>;
   [[nodiscard]] double tool_length(int tool) const;
+  // Of the sum over all columns, each at its point's motion of that size.
+  [[nodiscard]] double deviation(const std::function<double(const Vec3&)>& size,
+                                 const ContactPlace& at) const;
   [[nodiscard]] const Motions& motions_at(Known& known, std::uint32_t id,
                                           const kinematics::AxisState& state, int tool) const;
   // How much nearer along the normal each column brings what is at the point.
