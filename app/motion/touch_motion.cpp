@@ -59,6 +59,16 @@ TableMaps scatter_of(const TouchPlan& plan, const MotionSetup& setup,
   return squares;
 }
 
+// A probe has a ball and an artefact, and no bar.
+void name_facts(report::MotionPage& page, const MotionSetup& setup) {
+  std::erase_if(page.facts, [](const auto& fact) { return fact[0] == "Bar longer by"; });
+  for (auto& [name, value] : page.facts) {
+    if (name == "Spindle ball off") name = "Ball of the probe off";
+    if (name == "Table ball off") name = "Artefact off";
+  }
+  if (setup.instrument.noise > 0.0) page.facts.push_back({"Bands", "two standard deviations"});
+}
+
 }  // namespace
 
 Result<MotionAnswer> touch_answer(const TouchWords& words) {
@@ -88,6 +98,7 @@ Result<MotionAnswer> touch_answer(const TouchWords& words) {
   }
   MotionAnswer answer = answer_of("touch", "Touch-trigger calibration of A and C", *setup);
   answer.document["axes"] = axes_of(setup->machine, *poses);
+  name_facts(answer.page, *setup);
   add_touch_findings(answer, setup->machine, *plan, found);
   return answer;
 }

@@ -243,16 +243,16 @@ void add_touch_findings(MotionAnswer& answer, const kinematics::Machine& machine
 
   answer.text += fmt::format("{} touches of three columns at {} positions of A and {} of C\n",
                              plan.touches.size(), plan.tilts.size(), plan.turns.size());
-  add_table(answer, "identified errors", value_rows(plan, found.identified));
+  add_table(answer, "Identified errors", value_rows(plan, found.identified));
   const bool noisy = found.sd.tilt.front().maxCoeff() > 0.0;
   if (noisy) {
-    add_table(answer, "standard deviation, propagated from the noise of a touch",
+    add_table(answer, "Standard deviation, propagated from the noise of a touch",
               spread_rows(plan, found.sd));
   }
   if (found.scatter) {
     doc["repeat"] = static_cast<std::uint64_t>(found.runs);
     doc["scatter"] = document_of(*found.scatter);
-    add_table(answer, fmt::format("standard deviation of {} calibrations", found.runs),
+    add_table(answer, fmt::format("Standard deviation of {} calibrations", found.runs),
               spread_rows(plan, *found.scatter));
   }
   if (found.visible) {
