@@ -36,7 +36,11 @@ int show_motion(const Result<MotionAnswer>& answer, const AnswerOptions& options
   return kDone;
 }
 
-void add_machine_options(Command& command, MotionWords& words) {
+constexpr const char* kNoiseOfAReading =
+    "Standard deviation of a reading, for example 0.3um (default: none)";
+
+void add_machine_options(Command& command, MotionWords& words,
+                         const char* noise = kNoiseOfAReading) {
   command
       .option("machine,--machine", words.machine, "Machine file, or the name of a shipped machine")
       .required();
@@ -48,8 +52,7 @@ void add_machine_options(Command& command, MotionWords& words) {
       "nominal (default: none)");
   command.option("--tool-length", words.tool_length,
                  "mm from the gauge point to the spindle ball (default 0)");
-  command.option("--noise", words.noise,
-                 "Standard deviation of a reading, for example 0.3um (default: none)");
+  command.option("--noise", words.noise, noise);
   command.option("--resolution", words.resolution,
                  "Step of the readings, for example 0.1um (default: none)");
   command.option("--seed", words.seed, "Of the noise (default 1)");
@@ -183,6 +186,22 @@ void add_diagonal(Command& tests) {
   runs_test(command, words);
 }
 
+void add_touch(Command& tests) {
+  auto words = std::make_shared<TouchWords>();
+  Command command = tests.command(
+      "touch", "Touch-trigger calibration of a table's axes A and C: maps of their errors");
+  add_machine_options(command, *words,
+                      "Two standard deviations of a touch, for example 0.35um (default: none)");
+  command.option("--repeat", words->repeat, "Calibrations whose scatter is shown (default 1)")
+      .within(1, kMostCalibrations);
+  command.footer(
+      "In --setup, ball is that of the probe, table_ball the artefact. --out also writes "
+      "errors.toml, the maps as an error file, and touches.csv, which `motion trace` reads.\n"
+      "Example: frustum motion touch --machine ac-probe --errors ibaraki-position-dependent "
+      "--noise 0.35um --out touch");
+  runs_test(command, words);
+}
+
 struct RunWords : AnswerOptions {
   std::string file{};
   ErrorWords errors{};
@@ -207,13 +226,14 @@ void add_motion_run(Command& tests) {
 
 void add_trace(Command& tests) {
   auto words = std::make_shared<TraceWords>();
-  Command command = tests.command("trace", "What a measured trace of a ball bar or laser says");
+  Command command =
+      tests.command("trace", "What measured readings of a ball bar, a laser or a touch probe say");
   command
       .option(
           "files", words->files,
           "CSV: run,angle_deg,radial_um (or time_s, radial_mm, length_mm; semicolons and decimal "
           "commas too), one run or two, in one file or two; of a line run,direction,target_mm,"
-          "deviation_um")
+          "deviation_um; touches with --machine: A_deg,C_deg,point,x_mm,y_mm,z_mm")
       .required();
   command.option("--plane", words->plane, "XY, YZ or ZX (default: as the file says, else XY)");
   command.option("--length", words->length, "Of the bar, mm (default: as the file says)");
@@ -221,6 +241,9 @@ void add_trace(Command& tests) {
                  "From,to in degrees: the arc over which times are spread (default 0,360)");
   command.option("--stroke", words->stroke, "Of the bar to either side, mm (default 1)");
   command.option("--axis", words->axis, "The axis of a line");
+  command.option("--machine", words->machine, "The machine of a touch-trigger calibration");
+  command.option("--noise", words->noise,
+                 "Of a touch, two standard deviations, for example 0.35um (default: none)");
   command.option("--out", words->out, "Folder for motion.html and motion.json");
   add_answer_options(command, *words);
   command.footer("Example: frustum motion trace measured.csv --plane XY --length 150");
@@ -231,7 +254,7 @@ void add_trace(Command& tests) {
 
 void add_motion(Command& program) {
   Command tests = program.command(
-      "motion", "Ball bar, R-test and laser on the virtual machine; measured traces");
+      "motion", "Ball bar, R-test, laser and touch probe on the virtual machine; measured traces");
   tests.needs_a_command();
   add_circle(tests);
   add_rotary(tests);
@@ -239,6 +262,7 @@ void add_motion(Command& program) {
   add_chase(tests);
   add_line(tests);
   add_diagonal(tests);
+  add_touch(tests);
   add_motion_run(tests);
   add_trace(tests);
 }

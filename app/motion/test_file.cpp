@@ -123,6 +123,12 @@ DiagonalWords read_diagonal(const TomlTable& root) {
   return words;
 }
 
+TouchWords read_touch(const TomlTable& root) {
+  TouchWords words;
+  words.repeat = count_or(root, "repeat", 1, 1, kMostCalibrations);
+  return words;
+}
+
 // --- writing -------------------------------------------------------------------------------------
 
 class TestWriter {
@@ -199,6 +205,12 @@ TestWriter written(const DiagonalWords& words) {
   return out;
 }
 
+TestWriter written(const TouchWords& words) {
+  TestWriter out("touch");
+  out.number("repeat", words.repeat);
+  return out;
+}
+
 // "ball=10,-5,3;length=2": the keys of [setup].
 void write_setup(const std::string& setup, TestWriter& out) {
   if (setup.empty()) return;
@@ -241,14 +253,16 @@ Result<TestWords> read_test_file(const fs::path& file) {
   const auto document = TomlDocument::load(file);
   if (!document) return document.error();
   const TomlTable& root = document->root();
-  const auto kind = root.choice("test", {"circle", "rotary", "cone", "chase", "line", "diagonal"});
-  const std::array<TestWords (*)(const TomlTable&), 6> readers{
+  const auto kind =
+      root.choice("test", {"circle", "rotary", "cone", "chase", "line", "diagonal", "touch"});
+  const std::array<TestWords (*)(const TomlTable&), 7> readers{
       [](const TomlTable& t) -> TestWords { return read_circle(t); },
       [](const TomlTable& t) -> TestWords { return read_rotary(t); },
       [](const TomlTable& t) -> TestWords { return read_cone(t); },
       [](const TomlTable& t) -> TestWords { return read_chase(t); },
       [](const TomlTable& t) -> TestWords { return read_line(t); },
-      [](const TomlTable& t) -> TestWords { return read_diagonal(t); }};
+      [](const TomlTable& t) -> TestWords { return read_diagonal(t); },
+      [](const TomlTable& t) -> TestWords { return read_touch(t); }};
   TestWords words = readers.at(kind)(root);
   read_common(root, common_words(words));
   if (auto problems = document->finish(); has_error(problems)) return problems;
@@ -267,6 +281,7 @@ Result<MotionAnswer> answer_of(const TestWords& words) {
     Result<MotionAnswer> operator()(const ChaseWords& w) const { return chase_answer(w); }
     Result<MotionAnswer> operator()(const LineWords& w) const { return line_answer(w); }
     Result<MotionAnswer> operator()(const DiagonalWords& w) const { return diagonal_answer(w); }
+    Result<MotionAnswer> operator()(const TouchWords& w) const { return touch_answer(w); }
   };
   return std::visit(Answers{}, words);
 }

@@ -1,7 +1,7 @@
 // A motion test as a file, so that it can be run again: which test, with its options as keys.
 //
-// Text   : TOML: test = "circle" | "rotary" | "cone" | "chase" | "line" | "diagonal", the options
-//          of `frustum motion` as keys, tables [setup], [instrument] and [errors]
+// Text   : TOML: test = "circle" | "rotary" | "cone" | "chase" | "line" | "diagonal" | "touch",
+//          the options of `frustum motion` as keys, tables [setup], [instrument] and [errors]
 //          (docs/motion-tests.md)
 // Units  : lengths mm, angles degrees unless a text says otherwise; set-up errors um, feed mm/min
 // Errors : every unknown, missing or mistyped key, with its line
@@ -16,12 +16,13 @@
 #include "app/motion/cone_motion.hpp"
 #include "app/motion/line_motion.hpp"
 #include "app/motion/rotary_motion.hpp"
+#include "app/motion/touch_motion.hpp"
 #include "core/result.hpp"
 
 namespace frustum::app {
 
-using TestWords =
-    std::variant<CircleWords, RotaryWords, ConeMotionWords, ChaseWords, LineWords, DiagonalWords>;
+using TestWords = std::variant<CircleWords, RotaryWords, ConeMotionWords, ChaseWords, LineWords,
+                               DiagonalWords, TouchWords>;
 
 [[nodiscard]] Result<TestWords> read_test_file(const std::filesystem::path& file);
 [[nodiscard]] Result<MotionAnswer> answer_of(const TestWords& words);

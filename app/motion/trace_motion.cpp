@@ -5,8 +5,10 @@
 #include "app/job/number_list.hpp"
 #include "app/motion/circle_report.hpp"
 #include "app/motion/line_motion.hpp"
+#include "app/motion/touch_report.hpp"
 #include "instruments/circle_trace_file.hpp"
 #include "instruments/line_trace_file.hpp"
+#include "instruments/touch_trace_file.hpp"
 
 namespace frustum::app {
 namespace {
@@ -113,9 +115,49 @@ Result<MotionAnswer> line_trace(const TraceWords& words) {
   return answer;
 }
 
+Result<MotionAnswer> touch_trace(const TraceWords& words) {
+  if (words.files.size() != 1) {
+    return error("file-count"_id, fmt::format("the touches of a calibration are in one file, given "
+                                              "are {}",
+                                              words.files.size()));
+  }
+  MotionWords of_machine;
+  of_machine.machine = words.machine;
+  of_machine.noise = words.noise;
+  const auto setup = motion_setup(of_machine);
+  if (!setup) return setup.error();
+  const auto plan = instruments::touch_plan(setup->machine);
+  if (!plan) return plan.error();
+  const auto readings = instruments::read_touches(words.files.front(), *plan);
+  if (!readings) return readings.error();
+  MotionAnswer answer{.document = trace_head("touch", words),
+                      .text = fmt::format("Measured touches on {}\n", setup->machine.name())};
+  answer.document["machine"] = setup->machine.name();
+  answer.page.title = "Measured touch-trigger calibration of A and C";
+  answer.page.facts = {{"Machine", setup->machine.title()}};
+  const double noise = setup->instrument.noise / 2.0;
+  answer.document["noise_um"] = noise * kUmPerMm;
+  add_touch_findings(answer, setup->machine, *plan,
+                     {.readings = *readings,
+                      .identified = identified_maps(*plan, *readings),
+                      .sd = standard_deviations(*plan, noise)});
+  answer.files.erase("touches.csv");  // is what was given
+  return answer;
+}
+
 }  // namespace
 
 Result<MotionAnswer> trace_answer(const TraceWords& words) {
+  if (!words.machine.empty()) {
+    if (!words.axis.empty() || !words.plane.empty()) {
+      return error("conflicting-options"_id, "--machine is of touches, which have no plane or axis",
+                   "--plane for a circle of a ball bar, --axis for a line of a laser");
+    }
+    return touch_trace(words);
+  }
+  if (!words.noise.empty()) {
+    return error("conflicting-options"_id, "--noise is that of touches", "give --machine, too");
+  }
   if (!words.axis.empty() && !words.plane.empty()) {
     return error("conflicting-options"_id, "give either --plane or --axis",
                  "--plane for a circle of a ball bar, --axis for a line of a laser");

@@ -1,4 +1,4 @@
-// frustum motion trace: what a measured trace of a bar or a laser says.
+// frustum motion trace: what measured readings of a bar, a laser or a touch probe say.
 //
 // Units  : mm and degrees in the words
 // Errors : of words and files, with their lines
@@ -14,7 +14,9 @@ struct TraceWords : AnswerOptions {
   std::optional<double> length{};
   std::string capture{};  // "-20,200"
   double stroke = 1.0;
-  std::string axis{};  // of a line
+  std::string axis{};     // of a line
+  std::string machine{};  // of touches
+  std::string noise{};    // of touches, two standard deviations
   std::string out{};
 };
 

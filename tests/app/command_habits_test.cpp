@@ -187,6 +187,7 @@ TEST_F(CommandHabitsSystem, Fault2_44_EveryDocumentNamesItsSchema) {
   EXPECT_EQ(schema("fit plane p.csv"), "frustum/fit/1");
   EXPECT_EQ(schema("volumetric iwf-bc --grid 2"), "frustum/volumetric/1");
   EXPECT_EQ(schema("motion chase iwf-bc --ball 0,0,100 --at B=30"), "frustum/motion/1");
+  EXPECT_EQ(schema("motion touch ac-probe"), "frustum/motion/1");
   EXPECT_EQ(schema("check piece/cone.nc --job piece/job.toml"), "frustum/check/1");
   EXPECT_EQ(schema("check piece/cone.nc piece/cone.nc"), "frustum/check-files/1");
   EXPECT_EQ(schema("cut piece/job.toml --point 0,0,0"), "frustum/cut/1");

@@ -1,0 +1,106 @@
+#include "app/motion/touch_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/motion/touch_report.hpp"
+#include "instruments/touch_test.hpp"
+
+namespace frustum::app {
+namespace {
+
+using instruments::ErrorVector;
+using instruments::TableMaps;
+using instruments::TouchPlan;
+
+std::optional<Diagnostic> unfit_words(const TouchWords& words, const MotionSetup& setup) {
+  if (!words.at.empty()) {
+    return error("axis-moved"_id, "the calibration moves all axes: 'at' holds none");
+  }
+  if (setup.setup.length != 0.0) {
+    return error("setup-without-effect"_id, "--setup length: a probe has no bar",
+                 "a longer stylus is a ball off the tip: ball=0,0,-5");
+  }
+  return std::nullopt;
+}
+
+// Does `change(value, other)` for every value of the maps.
+template <typename Change>
+void for_all(TableMaps& maps, const TableMaps& others, Change change) {
+  for (std::size_t i = 0; i < maps.tilt.size(); ++i) {
+    change(maps.tilt[i], others.tilt[i]);
+    for (std::size_t j = 0; j < maps.turn[i].size(); ++j) {
+      change(maps.turn[i][j], others.turn[i][j]);
+      change(maps.poses[i][j], others.poses[i][j]);
+    }
+  }
+}
+
+// Standard deviation of the maps of as many calibrations, about those of the first.
+TableMaps scatter_of(const TouchPlan& plan, const MotionSetup& setup,
+                     const std::vector<double>& readings, int runs, const TableMaps& first) {
+  TableMaps sum = first, squares = first;
+  for (TableMaps* each : {&sum, &squares}) {
+    for_all(*each, first, [](ErrorVector& v, const ErrorVector&) { v.setZero(); });
+  }
+  for (int run = 1; run < runs; ++run) {
+    TableMaps off = identified_maps(
+        plan, instruments::shown(setup.instrument, readings, static_cast<std::uint32_t>(run)));
+    for_all(off, first, [](ErrorVector& v, const ErrorVector& at) { v -= at; });
+    for_all(sum, off, [](ErrorVector& v, const ErrorVector& d) { v += d; });
+    for_all(squares, off, [](ErrorVector& v, const ErrorVector& d) { v += d.cwiseAbs2(); });
+  }
+  for_all(squares, sum, [runs](ErrorVector& v, const ErrorVector& s) {
+    const ErrorVector variance = (v - s.cwiseAbs2() / runs) / (runs - 1.0);
+    v = variance.cwiseMax(0.0).cwiseSqrt();
+  });
+  return squares;
+}
+
+// A probe has a ball and an artefact, and no bar.
+void name_facts(report::MotionPage& page, const MotionSetup& setup) {
+  std::erase_if(page.facts, [](const auto& fact) { return fact[0] == "Bar longer by"; });
+  for (auto& [name, value] : page.facts) {
+    if (name == "Spindle ball off") name = "Ball of the probe off";
+    if (name == "Table ball off") name = "Artefact off";
+  }
+  if (setup.instrument.noise > 0.0) page.facts.push_back({"Bands", "two standard deviations"});
+}
+
+}  // namespace
+
+Result<MotionAnswer> touch_answer(const TouchWords& words) {
+  auto setup = motion_setup(words);
+  if (!setup) return setup.error();
+  setup->instrument.noise /= 2.0;
+  if (auto problem = unfit_words(words, *setup)) return *std::move(problem);
+  const auto plan = instruments::touch_plan(setup->machine);
+  if (!plan) return plan.error();
+  const instruments::TouchProbe probe{.tool_length = setup->tool_length};
+  const auto poses = touch_poses(setup->machine, setup->errors, *plan, probe);
+  if (!poses) return poses.error();
+  const auto exact = touch_readings(setup->machine, setup->errors, *plan, *poses, probe,
+                                    {.ball = setup->setup.ball, .shift = setup->setup.table_ball});
+  if (!exact) return exact.error();
+  const auto readings = instruments::shown(setup->instrument, *exact, 0);
+
+  TouchFindings found{
+      .readings = readings,
+      .identified = identified_maps(*plan, readings),
+      .sd = standard_deviations(*plan, setup->instrument.noise),
+      .visible = visible_maps(setup->machine, setup->errors, *plan, *poses),
+  };
+  if (words.repeat > 1) {
+    found.runs = words.repeat;
+    found.scatter = scatter_of(*plan, *setup, *exact, words.repeat, found.identified);
+  }
+  MotionAnswer answer = answer_of("touch", "Touch-trigger calibration of A and C", *setup);
+  answer.document["axes"] = axes_of(setup->machine, *poses);
+  name_facts(answer.page, *setup);
+  add_touch_findings(answer, setup->machine, *plan, found);
+  return answer;
+}
+
+}  // namespace frustum::app

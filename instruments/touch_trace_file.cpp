@@ -1,0 +1,136 @@
+#include "instruments/touch_trace_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "core/decimal.hpp"
+#include "core/units.hpp"
+#include "instruments/trace_table.hpp"
+
+namespace frustum::instruments {
+namespace {
+
+constexpr double kSamePosition = 0.01 * kRadPerDeg;  // an axis that is indexed, not interpolated
+constexpr double kFarthest = 10.0;                   // mm: as far as the probe searches
+const std::vector<std::string> kColumns{"A_deg", "C_deg", "point", "x_mm", "y_mm", "z_mm"};
+
+TouchPoint turned_point(const TouchPlan& plan, const PlannedTouch& touch) {
+  const TouchPoint& point = touch_points().at(touch.point);
+  const Mat3 rotation = plan.rotation(touch);
+  return {rotation * point.place, rotation * point.normal};
+}
+
+std::string name_of(const TouchPlan& plan, const PlannedTouch& touch) {
+  return fmt::format("point {} at A = {:g} deg, C = {:g} deg", touch.point,
+                     plan.tilts[touch.tilt].axis * kDegPerRad,
+                     plan.turns[touch.turn].axis * kDegPerRad);
+}
+
+// Numbers of one row, by the columns.
+struct Row {
+  double tilt = 0.0, turn = 0.0;  // rad
+  double point = 0.0;
+  Vec3 place = Vec3::Zero();
+};
+
+Result<Row> row_of(const TraceTable& table, std::size_t row) {
+  std::vector<double> numbers;
+  for (const std::string& column : kColumns) {
+    const auto number = table.number(row, column);
+    if (!number) return number.error();
+    numbers.push_back(*number);
+  }
+  return Row{.tilt = numbers[0] * kRadPerDeg,
+             .turn = numbers[1] * kRadPerDeg,
+             .point = numbers[2],
+             .place = {numbers[3], numbers[4], numbers[5]}};
+}
+
+std::optional<std::size_t> planned(const TouchPlan& plan, const Row& row) {
+  for (std::size_t t = 0; t < plan.touches.size(); ++t) {
+    const PlannedTouch& touch = plan.touches[t];
+    if (static_cast<double>(touch.point) == row.point &&
+        std::abs(plan.tilts[touch.tilt].axis - row.tilt) < kSamePosition &&
+        std::abs(plan.turns[touch.turn].axis - row.turn) < kSamePosition) {
+      return t;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<std::vector<double>> read_touches(const std::filesystem::path& file, const TouchPlan& plan) {
+  const auto table = TraceTable::read(file, kColumns);
+  if (!table) return table.error();
+  for (const std::string& column : kColumns) {
+    if (table->has(column)) continue;
+    return table->placed(error("missing-column"_id, fmt::format("column {} is missing", column),
+                               fmt::format("columns: {}", fmt::join(kColumns, ", "))),
+                         table->header_line());
+  }
+  std::vector<std::optional<double>> readings(plan.touches.size());
+  for (std::size_t r = 0; r < table->rows(); ++r) {
+    const auto row = row_of(*table, r);
+    if (!row) return row.error();
+    const auto at = planned(plan, *row);
+    if (!at) {
+      return table->placed(
+          error("touch-unplanned"_id,
+                fmt::format("the plan has no touch of point {:g} at A = {:g} deg, C = {:g} deg",
+                            row->point, row->tilt * kDegPerRad, row->turn * kDegPerRad),
+                "the plan: touches.csv of frustum motion touch --out"),
+          table->line(r));
+    }
+    const PlannedTouch& touch = plan.touches[*at];
+    if (readings[*at]) {
+      return table->placed(
+          error("given-twice"_id, fmt::format("{} is touched twice", name_of(plan, touch))),
+          table->line(r));
+    }
+    const TouchPoint nominal = turned_point(plan, touch);
+    const Vec3 off = row->place - nominal.place;
+    if (!(off.norm() <= kFarthest)) {
+      return table->placed(
+          error("touch-far"_id,
+                fmt::format("{} is {:.4g} mm from its nominal place ({:.3f}, {:.3f}, {:.3f})",
+                            name_of(plan, touch), off.norm(), nominal.place.x(), nominal.place.y(),
+                            nominal.place.z()),
+                "mm in machine coordinates, counted from the crossing of the axes A and C"),
+          table->line(r));
+    }
+    readings[*at] = off.dot(nominal.normal);
+  }
+  std::vector<double> all;
+  for (std::size_t t = 0; t < readings.size(); ++t) {
+    if (!readings[t]) {
+      return table->placed(
+          error("touch-missing"_id,
+                fmt::format("{} of {} touches are there: {} is missing", table->rows(),
+                            plan.touches.size(), name_of(plan, plan.touches[t]))),
+          table->header_line());
+    }
+    all.push_back(*readings[t]);
+  }
+  return all;
+}
+
+std::string touch_csv(const TouchPlan& plan, const std::vector<double>& readings) {
+  std::string csv = fmt::format("{}\n", fmt::join(kColumns, ","));
+  for (std::size_t t = 0; t < plan.touches.size(); ++t) {
+    const PlannedTouch& touch = plan.touches[t];
+    const TouchPoint nominal = turned_point(plan, touch);
+    const Vec3 p = nominal.place + readings[t] * nominal.normal;
+    // 1e-9 mm: rounding stays below what the maps show.
+    csv += fmt::format("{},{},{},{},{},{}\n",
+                       shortest_decimal(as_stated(plan.tilts[touch.tilt].axis * kDegPerRad)),
+                       shortest_decimal(as_stated(plan.turns[touch.turn].axis * kDegPerRad)),
+                       touch.point, fixed_decimal(p.x(), 9), fixed_decimal(p.y(), 9),
+                       fixed_decimal(p.z(), 9));
+  }
+  return csv;
+}
+
+}  // namespace frustum::instruments
