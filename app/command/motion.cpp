@@ -48,6 +48,8 @@ void add_machine_options(Command& command, MotionWords& words) {
       "nominal (default: none)");
   command.option("--tool-length", words.tool_length,
                  "mm from the gauge point to the spindle ball (default 0)");
+  command.flag("--ball-known", words.ball_known,
+               "What is told where the offset of the spindle ball is known (default: it is not)");
   command.option("--noise", words.noise,
                  "Standard deviation of a reading, for example 0.3um (default: none)");
   command.option("--resolution", words.resolution,
