@@ -102,7 +102,7 @@ Result<MotionAnswer> chase_answer(const ChaseWords& words) {
   const auto errors = instruments::location_unknowns(setup->machine);
   const std::vector gains{instruments::displacement_gains(
       setup->machine, errors, instruments::thinned(*test, kPosesThatTell))};
-  add_told(answer, instruments::told_by(errors, gains, instruments::SpindleBall::unknown));
+  add_told(answer, instruments::told_by(errors, gains, spindle_ball_of(words)));
   return answer;
 }
 

@@ -82,7 +82,7 @@ Result<MotionAnswer> circle_answer(const CircleWords& words) {
   const auto errors = instruments::location_unknowns(setup->machine);
   const std::vector gains{
       instruments::bar_gains(setup->machine, errors, instruments::thinned(ccw, kPosesThatTell))};
-  add_told(answer, instruments::told_by(errors, gains, instruments::SpindleBall::unknown));
+  add_told(answer, instruments::told_by(errors, gains, spindle_ball_of(words)));
   return answer;
 }
 

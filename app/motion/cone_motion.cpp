@@ -68,7 +68,7 @@ Result<MotionAnswer> cone_answer(const ConeMotionWords& words) {
   const auto errors = instruments::location_unknowns(setup->machine);
   const std::vector gains{
       instruments::bar_gains(setup->machine, errors, instruments::thinned(*test, kPosesThatTell))};
-  add_told(answer, instruments::told_by(errors, gains, instruments::SpindleBall::unknown));
+  add_told(answer, instruments::told_by(errors, gains, spindle_ball_of(words)));
   return answer;
 }
 

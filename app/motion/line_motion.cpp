@@ -234,7 +234,7 @@ Result<MotionAnswer> diagonal_answer(const DiagonalWords& words) {
   answer.page.charts.push_back(std::move(chart));
   answer.text += table.text();
   answer.text += "Equal diagonals prove nothing: errors may cancel on all of them.\n";
-  add_told(answer, instruments::told_by(errors, gains, instruments::SpindleBall::unknown));
+  add_told(answer, instruments::told_by(errors, gains, spindle_ball_of(words)));
   return answer;
 }
 

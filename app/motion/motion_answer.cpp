@@ -67,7 +67,7 @@ MotionAnswer answer_of(const std::string& test, const std::string& title,
                    {"seed", instrument.seed}},
       .text = fmt::format("{} on {}, {}\n", title, setup.machine.name(), written)};
   const auto um = [](const Vec3& v) {
-    return fmt::format("{:g}, {:g}, {:g} um", v.x() * kUmPerMm, v.y() * kUmPerMm, v.z() * kUmPerMm);
+    return fmt::format("{:g}, {:g}, {:g} µm", v.x() * kUmPerMm, v.y() * kUmPerMm, v.z() * kUmPerMm);
   };
   answer.page.title = title;
   answer.page.facts = {{"Machine", setup.machine.title()},
@@ -75,11 +75,11 @@ MotionAnswer answer_of(const std::string& test, const std::string& title,
                        {"Errors", written},
                        {"Spindle ball off", um(off.ball)},
                        {"Table ball off", um(off.table_ball)},
-                       {"Bar longer by", fmt::format("{:g} um", off.length * kUmPerMm)},
+                       {"Bar longer by", fmt::format("{:g} µm", off.length * kUmPerMm)},
                        {"Tool length", fmt::format("{:g} mm", setup.tool_length)}};
   if (instrument.noise > 0.0) {
     answer.page.facts.push_back(
-        {"Noise", fmt::format("{:g} um, seed {}", instrument.noise * kUmPerMm, instrument.seed)});
+        {"Noise", fmt::format("{:g} µm, seed {}", instrument.noise * kUmPerMm, instrument.seed)});
   }
   return answer;
 }

@@ -93,6 +93,10 @@ Result<MotionSetup> motion_setup(const MotionWords& words) {
                      .tool_length = words.tool_length};
 }
 
+instruments::SpindleBall spindle_ball_of(const MotionWords& words) {
+  return words.ball_known ? instruments::SpindleBall::known : instruments::SpindleBall::unknown;
+}
+
 Result<AxisPositions> held_axes(const Machine& machine, const std::string& text,
                                 LinearAxes linear) {
   const auto words = read_axis_words(machine, text);

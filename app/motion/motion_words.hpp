@@ -15,6 +15,7 @@
 #include "app/view/console.hpp"
 #include "core/result.hpp"
 #include "instruments/instrument.hpp"
+#include "instruments/observability.hpp"
 #include "instruments/setup_errors.hpp"
 #include "kinematics/model/machine.hpp"
 
@@ -26,7 +27,8 @@ struct MotionWords : AnswerOptions {
   kinematics::ErrorList of_file{};  // errors of a test file, which those words override
   std::string setup{};              // "ball=10,-5,3;table_ball=6,-4,2;length=2"
   double tool_length = 0.0;
-  std::string at{};  // held axes: "A=-90"
+  std::string at{};         // held axes: "A=-90"
+  bool ball_known = false;  // the spindle ball's offset, for what is told
   std::string noise{}, resolution{};
   std::uint64_t seed = 1;
   double stroke = 1.0;  // of a bar, to either side, mm
@@ -42,6 +44,8 @@ struct MotionSetup {
   double tool_length = 0.0;
 };
 [[nodiscard]] Result<MotionSetup> motion_setup(const MotionWords& words);
+
+[[nodiscard]] instruments::SpindleBall spindle_ball_of(const MotionWords& words);
 
 // Held axes; linear ones are refused where the test moves them.
 enum class LinearAxes { moved, held };

@@ -59,6 +59,7 @@ void read_common(const TomlTable& root, MotionWords& words) {
   words.tool_length = root.length_or("tool_length", {0.0}, Bound::non_negative).value;
   words.at = root.text_or("at", "");
   words.setup = read_setup(root);
+  words.ball_known = root.boolean_or("ball_known", false);
   if (const auto instrument = root.table_if("instrument")) {
     words.noise = instrument->text_or("noise", "");
     words.resolution = instrument->text_or("resolution", "");
@@ -141,6 +142,7 @@ class TestWriter {
   void number(const std::string& key, double value) {
     out_ += fmt::format("{} = {}\n", key, shortest_decimal(value));
   }
+  void yes(const std::string& key) { out_ += key + " = true\n"; }
   void list(const std::string& key, const std::string& numbers) {
     if (!numbers.empty()) out_ += fmt::format("{} = [{}]\n", key, numbers);
   }
@@ -295,6 +297,7 @@ std::string test_toml(const TestWords& words, const fs::path& folder) {
           out.text("machine", name_for_job(*file, folder));
         }
         out.text("at", common.at);
+        if (common.ball_known) out.yes("ball_known");
         if (common.tool_length > 0.0) out.number("tool_length", common.tool_length);
         write_setup(common.setup, out);
         out.table("instrument");

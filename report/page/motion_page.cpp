@@ -13,11 +13,20 @@ std::string note_of(const std::string& text) {
   return text.empty() ? "" : "<p class=\"note\">" + html_text(text) + "</p>\n";
 }
 
+// A number with the sign that printers use.
+std::string with_minus(const std::string& cell) {
+  const bool negative = cell.size() > 1 && cell[0] == '-' && cell[1] >= '0' && cell[1] <= '9';
+  return negative ? "\u2212" + cell.substr(1) : cell;
+}
+
 std::string trace_section(const MotionPage& page) {
   std::string content;
-  if (!page.polar.empty()) content += polar_traces_figure("Polar trace", page.polar);
+  if (!page.polar.empty()) {
+    content += "<div class=\"pair\">" + polar_traces_figure("Polar trace", page.polar) + "</div>\n";
+  }
   if (!page.arrows.empty()) {
-    content += vector_figure("Displacements in the plane of the table", page.arrows);
+    content += "<div class=\"pair\">" +
+               vector_figure("Displacements in the plane of the table", page.arrows) + "</div>\n";
   }
   for (const TraceChart& chart : page.charts) content += trace_figure(chart);
   return content.empty() ? "" : section("traces", "Traces", content);
@@ -30,7 +39,7 @@ std::string table_sections(const MotionPage& page) {
     Table table(each.heading, each.columns);
     for (const auto& row : each.rows) {
       std::vector<std::string> cells;
-      for (const std::string& cell : row) cells.push_back(html_text(cell));
+      for (const std::string& cell : row) cells.push_back(html_text(with_minus(cell)));
       table.row(cells);
     }
     html += section(fmt::format("table-{}", k + 1), html_text(each.heading),
@@ -48,9 +57,7 @@ std::string contribution_section(const MotionPage& page) {
 
 std::string list_of(const std::vector<std::string>& items) {
   if (items.empty()) return "<p>Nothing.</p>\n";
-  std::string html = "<ul>";
-  for (const std::string& each : items) html += "<li>" + html_text(each) + "</li>";
-  return html + "</ul>\n";
+  return "<p>" + html_text(fmt::format("{}", fmt::join(items, ", "))) + ".</p>\n";
 }
 
 std::string told_section(const MotionPage& page) {

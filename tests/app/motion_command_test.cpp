@@ -124,6 +124,10 @@ TEST_F(MotionSystem, ChasesConesAndDiagonals) {
   for (std::size_t i = 0; i < r["displacement_um"].size(); ++i) {
     expect_all(r["displacement_um"][i], chase["displacement_table_frame_um"][i], 1.1e-6);
   }
+  const json known =
+      document("chase --machine zx-yac --ball=100,0,100 --at \"" + poses + "\" --ball-known");
+  EXPECT_EQ(r["told"].size(), 8U);
+  EXPECT_EQ(known["told"].size(), 11U);
   const json cone = document(
       "cone --machine iwf-bc --cone-angle 45 --inclination 30 --radius 40 --center=-65,0,150 "
       "--sense radial --error EX0C=10um");

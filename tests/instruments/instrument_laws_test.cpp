@@ -13,6 +13,7 @@
 #include "instruments/readings.hpp"
 #include "instruments/rotary_test.hpp"
 #include "instruments/sample_angles.hpp"
+#include "instruments/signature.hpp"
 #include "instruments/turn_harmonics.hpp"
 #include "tests/instruments/motion_numbers.hpp"
 
@@ -151,6 +152,36 @@ TEST(InstrumentLaws, AShiftedTableBallChangesOnlyItsOwnHarmonics) {
       }
     }
   }
+}
+
+// Nothing of a machine without errors is in its signature, but what the set-up makes to second
+// order.
+TEST(InstrumentLaws, SetUpErrorsAloneAreNoErrorsOfTheMachine) {
+  const Machine machine = shipped("zx-yac");
+  const GeometricErrors none;
+  const ForwardChain chain(machine, none, 0.0);
+  const SetupErrors setup{
+      .ball = {0.02, -0.015, 0.01}, .table_ball = {0.016, -0.024, 0.012}, .length = 0.005};
+  std::vector<CircleTrace> traces;
+  for (const Sense sense : kSenses) {
+    const auto test = circle_test(machine, {.sense = sense,
+                                            .centre = {0.0, 0.0, 150.0},
+                                            .angles = midpoints(0.0, 2.0 * std::numbers::pi, 720)});
+    ASSERT_TRUE(test);
+    std::vector<double> angles;
+    for (const TestPose& pose : test->poses) angles.push_back(pose.parameter);
+    traces.push_back({sense, angles, bar_readings(chain, *test, setup)});
+  }
+  const auto found = signature(traces, 150.0);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR((*found)[SignatureTerm::cx], 0.004, 1e-5);
+  EXPECT_NEAR((*found)[SignatureTerm::cy], 0.009, 1e-5);
+  const double second_order = 0.02 * 0.02 / 150.0;  // mm: of 20 um across the bar
+  for (const SignatureTerm term : {SignatureTerm::scale, SignatureTerm::servo,
+                                   SignatureTerm::backlash_1, SignatureTerm::backlash_2}) {
+    EXPECT_LT(std::abs((*found)[term]), second_order);
+  }
+  EXPECT_LT(std::abs((*found)[SignatureTerm::square]) * 150.0, second_order);
 }
 
 TEST(InstrumentLaws, WithoutBacklashBothSensesReadTheSame) {

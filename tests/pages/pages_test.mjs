@@ -54,10 +54,12 @@ function makePages() {
   run('volumetric', 'iwf-bc', '--error', 'EB0Z=20urad', '--error', 'EXX=linear 10um', '--tolerance',
       'displacements=10um', '--tolerance', 'rotations=20urad', '--out', 'volumetric', '--json');
   run('program', 'step', '--machine', 'zx-yac', '--patterns', '1-a,2-a', '--out', 'sheet');
+  run('motion', 'run', join(source, 'examples/ballbar/circle.toml'), '--out', 'motion', '--quiet');
   const few = {
     ideal: 'ideal/report.html',
     judged: 'judged/report.html',
     volumetric: 'volumetric/volumetric.html',
+    motion: 'motion/motion.html',
     sheet: 'sheet/setup.html',
   };
   if (reduced) return few;
@@ -68,7 +70,19 @@ function makePages() {
                     '[errors]\nfile = "jang-general-tolerances"\n[limits]\n"volumetric.error" = "24 um"\n' +
                     '[measurement]\nu = "2 um"\n[risk]\n[shares]\n[allocate]\ncharacteristic = "volumetric.error"\n');
   run('study', 'study.toml', '--out', 'study', '--quiet');
-  return {...few, step: 'step/report.html', sensitivity: 'sensitivity/sensitivity.html', study: 'study/report.html'};
+  run('motion', 'chase', 'zx-yac', '--ball', '100,0,100', '--at',
+      'A=-60,C=0;A=-60,C=90;A=-60,C=180;A=-60,C=270;A=0,C=0;A=0,C=90;A=0,C=180;A=0,C=270', '--error', 'EX0C=10um',
+      '--error', 'EZ0A=6um', '--out', 'r-test', '--quiet');
+  run('motion', 'line', 'zx-yac', '--axis', 'X', '--targets=-180,-97,-31,42,111,178', '--error',
+      'EXX=linear 10um + reversal 3um', '--noise', '0.3um', '--out', 'line', '--quiet');
+  return {
+    ...few,
+    step: 'step/report.html',
+    sensitivity: 'sensitivity/sensitivity.html',
+    study: 'study/report.html',
+    'r-test': 'r-test/motion.html',
+    line: 'line/motion.html',
+  };
 }
 
 const browser = await Browser.start(chromium);

@@ -55,11 +55,12 @@ TEST(MotionPage, DrawsTracesOverOneAnother) {
 TEST(MotionPage, SaysWhatIsToldAndWhatIsNot) {
   MotionPage page{.told = {"EA0A + EA0C"}, .not_told = {"EX0C<"}};
   page.contributions = {{"square", 0.6, "3.000 µm"}, {"residual", 0.4, "2.000 µm"}};
-  page.tables = {{.heading = "Values", .columns = {"um", ">G"}, .rows = {{"ccw", "4.5"}}}};
+  page.tables = {{.heading = "Values", .columns = {"um", ">G"}, .rows = {{"ccw", "-4.5"}}}};
   page.remarks = {"no evaluation"};
   const std::string html = motion_html(page);
-  EXPECT_THAT(html, HasSubstr("<li>EA0A + EA0C</li>"));
-  EXPECT_THAT(html, HasSubstr("<li>EX0C&lt;</li>"));
+  EXPECT_THAT(html, HasSubstr("<p>EA0A + EA0C.</p>"));
+  EXPECT_THAT(html, HasSubstr("<p>EX0C&lt;.</p>"));
+  EXPECT_THAT(html, HasSubstr("−4.5"));
   EXPECT_EQ(times_in(html, "class=\"column s1\""), 2U);
   EXPECT_THAT(html, HasSubstr("no evaluation"));
 }
