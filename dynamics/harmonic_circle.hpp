@@ -1,9 +1,9 @@
 // A circle of two linear axes in its harmonic steady state, and what the tip makes of it.
 //
 // Model    : q1 = R cos wt, q2 = R sin wt; the deviations are harmonic too, so that the points are
-//            an ellipse about the centre. Its semi-axes are the singular values of [A B] of
-//            p = A cos wt + B sin wt; a least-squares circle has the same centre. Radii are those of
-//            the points: a lag that is projected on the commanded radius counts twice
+//            an ellipse about the centre. Its semi-axes are the singular values of [A B] in
+//            p = A cos wt + B sin wt; a least-squares circle has the same centre. Radii are those
+//            of the points: a lag that is projected on the commanded radius counts twice
 // Units    : m, rad/s
 // Shape    : two linear axes; x and y of the plane are their directions
 // Errors   : none

@@ -10,9 +10,9 @@
 //            (x, y, z, horizontal), "X.carriage.damping" (.normal, .lateral), "B.bearing.stiffness"
 //            (.axial, .radial, .tilt), "X.drive.stiffness"
 // Errors   : names that the machine has not, with the nearest; too few lines; no convergence
-// Accuracy : 95 % intervals hold the truth in 90 to 98 % of 200 repetitions on ten machines with 5 %
-//            noise (tests/dynamics/identification_test.cpp)
-// Source   : the ETH thesis adjusts mounts by hand (section 8.2); Marquardt 1963
+// Accuracy : 95 % intervals hold the truth in 90 to 98 % of 200 repetitions on ten machines with
+//            5 % noise (tests/dynamics/identification_test.cpp)
+// Source   : Marquardt 1963; the ETH thesis adjusts its mounts by hand
 #pragma once
 
 #include <span>

@@ -1,10 +1,10 @@
 // The dynamic deviation put into a tool path, after the geometric errors.
 //
-// Model    : tip += R^T d, axis += (R^T r) x axis, R of the table, d and r of path_response.hpp. The
-//            commanded motion is taken at the multiples of the time step, at which a path that was
-//            recorded with it has poses (TravelOptions::time_step); poses in between have what is
-//            between their neighbours. Before and after each tool's path the axes rest; when it ends
-//            the tool stays until less than 0.01 um is left of a vibration, for 2 s at most
+// Model    : tip += R^T d, axis += (R^T r) x axis, R of the table, d and r of path_response.hpp.
+//            The commanded motion is taken at the multiples of the time step, at which a path that
+//            was recorded with it has poses (TravelOptions::time_step); poses in between have what
+//            is between their neighbours. Before and after each tool's path the axes rest; when it
+//            ends the tool stays until less than 0.01 um is left of a vibration, for 2 s at most
 // Units    : path mm, s; frame: workpiece
 // Shape    : one chain of poses for each tool; between two tools the machine comes to rest
 // Errors   : none

@@ -3,10 +3,10 @@
 // Model    : quasi-static: in each sample K(q)^-1 f(q, q', q''), without vibration; good to
 //            (frequency of the motion / first natural frequency)^2.
 //            linear: M x'' + D x' + K x = f in absolute coordinates of the machine, so that x goes
-//            on when the matrices are renewed: each time that an axis has moved on by 1 mm or 1 deg,
-//            as they are in the middle of that way. Load, tip and table are those of each sample; in
-//            between the load is linear in time and the step exact. Starts at rest without
-//            deviation. Controlled axes have their loops (servo.hpp)
+//            on when the matrices are renewed: each time that an axis has moved on by 1 mm or
+//            1 deg, as they are in the middle of that way. Load, tip and table are those of each
+//            sample; in between the load is linear in time and the step exact. Starts at rest
+//            without deviation. Controlled axes have their loops (servo.hpp)
 // Units    : samples mm, rad, s; deviations m, rad, in the frame of the table
 // Shape    : samples evenly spaced in time
 // Errors   : none

@@ -1,9 +1,11 @@
 // frustum dynamics: modes, compliances and deviations in motion of a machine of rigid bodies.
 #include <iostream>
 #include <memory>
+#include <sstream>
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
+#include "app/dynamics/dynamics_files.hpp"
 #include "app/dynamics/dynamics_json.hpp"
 #include "app/job/machine_files.hpp"
 #include "app/view/console.hpp"
@@ -19,6 +21,9 @@ struct DynamicsOptions : AnswerOptions {
   std::string other{};
   DynamicsWords words{};
   unsigned modes = 20;
+  std::string out{};
+  std::string measured{};
+  std::string identify{};
 };
 
 struct MachineInMotion {
@@ -51,7 +56,39 @@ Result<ComparedMachine> compare(const DynamicsOptions& options, const MachineInM
                          compare_inertial(first.model, of_first, second->model, *of_second)};
 }
 
+// What measured responses show of the machine, and the responses.
+struct Measured {
+  std::vector<dynamics::FrequencyResponse> responses{};
+  std::optional<dynamics::Identification> identified{};
+};
+
+Result<Measured> read_measured(const DynamicsOptions& options, const dynamics::DynamicModel& model,
+                               const DynamicsRequest& request) {
+  if (options.measured.empty()) {
+    if (options.identify.empty()) return Measured{};
+    return error("missing-option"_id, "--identify needs --measured", "a universal file or CSV");
+  }
+  auto responses = dynamics::load_responses(options.measured);
+  if (!responses) return responses.error();
+  Measured found{*std::move(responses), std::nullopt};
+  if (options.identify.empty()) return found;
+  std::vector<std::string> names;
+  std::istringstream in(options.identify);
+  for (std::string name; std::getline(in, name, ',');) names.push_back(name);
+  auto identified =
+      identify_parameters(model, request.axes, request.tool_length, found.responses, names);
+  if (!identified) return identified.error();
+  found.identified = *std::move(identified);
+  return found;
+}
+
 int run_dynamics(const DynamicsOptions& options) {
+  std::optional<FileSet> files;
+  if (!options.out.empty()) {
+    auto opened = FileSet::open(options.out, dynamics_file_names());
+    if (!opened) return refuse(opened.error(), options);
+    files = *std::move(opened);
+  }
   const auto found = load_moving(options.machine);
   if (!found) return refuse(found.error(), options);
   const auto request = read_dynamics_request(found->machine, found->model, options.words);
@@ -67,13 +104,23 @@ int run_dynamics(const DynamicsOptions& options) {
     if (!other) return refuse(other.error(), options);
     compared = *std::move(other);
   }
+  const auto measured = read_measured(options, found->model, *request);
+  if (!measured) return refuse(measured.error(), options);
+  const auto text_by = [&](auto writer) {
+    return writer(found->machine, found->model, *request, *answer, options.modes, compared,
+                  measured->identified);
+  };
+  const std::string document = text_by(dynamics_json) + '\n';
+  if (files) {
+    add_dynamics_files(*files, found->machine, found->model, *request, *answer,
+                       measured->responses);
+    files->add("dynamics.json", document);
+    if (const auto written = files->write(); !written) return refuse(written.error(), options);
+  }
   if (options.json) {
-    std::cout << dynamics_json(found->machine, found->model, *request, *answer, options.modes,
-                               compared)
-              << '\n';
+    std::cout << document;
   } else if (!options.quiet) {
-    std::cout << dynamics_text(found->machine, found->model, *request, *answer, options.modes,
-                               compared);
+    std::cout << text_by(dynamics_text);
   }
   return kDone;
 }
@@ -113,6 +160,14 @@ void add_dynamics(Command& program) {
       "s) from rest to rest");
   command.option("--compare", options->other,
                  "Another machine in the same position: change of the inertial compliances");
+  command.option(
+      "--measured", options->measured,
+      "Measured responses: a universal file (58), or CSV with frequency_hz,Gxx_re,Gxx_im "
+      "(Hz, um/N)");
+  command.option("--identify", options->identify,
+                 "\"mount.stiffness.z,mount.damping\": factors on these that explain --measured");
+  command.option("--out", options->out,
+                 "Folder for dynamics.json, report.html, and frf.csv, frf.uff with --frf, map.csv");
   add_answer_options(command, *options);
   command.footer(
       "Example: frustum dynamics iwf-bc --axes \"Z=300\" --tool-length 150 --frf 1:200 "

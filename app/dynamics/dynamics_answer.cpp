@@ -49,6 +49,7 @@ Result<DynamicsAnswer> answer_dynamics(const DynamicModel& model, const Dynamics
   if (const auto unstable = instability(model, servo)) return *unstable;
   DynamicsAnswer answer{.tip_in_machine = s.tip_in_machine,
                         .coordinates = s.coordinates(),
+                        .bodies = s.bodies,
                         .modes = undamped_modes(s),
                         .damped = damped_modes(s),
                         .rest = static_response(model, s)};

@@ -36,6 +36,7 @@ struct ControlAnswer {
 struct DynamicsAnswer {
   Vec3 tip_in_machine = Vec3::Zero();
   Eigen::Index coordinates = 0;
+  std::vector<dynamics::BodyPlace> bodies{};
   dynamics::UndampedModes modes{};
   std::vector<dynamics::ModePlace> places{};
   dynamics::Poles damped{};

@@ -193,11 +193,25 @@ ordered_json compared_json(const ComparedMachine& compared) {
           {"change_percent", change}};
 }
 
+ordered_json identified_json(const dynamics::Identification& identified) {
+  ordered_json parameters = ordered_json::array();
+  for (const dynamics::IdentifiedParameter& p : identified.parameters) {
+    parameters.push_back({{"name", p.name},
+                          {"factor", p.factor},
+                          {"relative_standard_uncertainty", p.relative_uncertainty},
+                          {"interval_95", {p.low, p.high}}});
+  }
+  return {{"parameters", parameters},
+          {"noise", identified.noise},
+          {"not_separated", identified.not_separated}};
+}
+
 }  // namespace
 
 std::string dynamics_json(const kinematics::Machine& machine, const DynamicModel& model,
                           const DynamicsRequest& request, const DynamicsAnswer& answer,
-                          std::size_t modes, const std::optional<ComparedMachine>& compared) {
+                          std::size_t modes, const std::optional<ComparedMachine>& compared,
+                          const std::optional<dynamics::Identification>& identified) {
   ordered_json doc{{"schema", "frustum/dynamics/1"},
                    {"machine", machine.name()},
                    {"structure", machine.structure()},
@@ -222,6 +236,7 @@ std::string dynamics_json(const kinematics::Machine& machine, const DynamicModel
   if (answer.circle) doc["circle"] = circle_json(*request.circle, *answer.circle);
   if (answer.move) doc["jerk_move"] = move_json(model, *request.move, *answer.move);
   if (compared) doc["compare"] = compared_json(*compared);
+  if (identified) doc["identified"] = identified_json(*identified);
   return doc.dump(2);
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/dynamics/dynamics_answer.hpp"
+#include "dynamics/identification.hpp"
 
 namespace frustum::app {
 
@@ -17,11 +18,13 @@ struct ComparedMachine {
   std::vector<ComparedRow> rows{};
 };
 
-// `modes`: how many modes and poles are listed at most. `compared`: none without another machine.
+// `modes`: how many modes and poles are listed at most. Without another machine, or measured
+// responses, nothing is compared, nothing identified.
 [[nodiscard]] std::string dynamics_json(const kinematics::Machine& machine,
                                         const dynamics::DynamicModel& model,
                                         const DynamicsRequest& request,
                                         const DynamicsAnswer& answer, std::size_t modes,
-                                        const std::optional<ComparedMachine>& compared);
+                                        const std::optional<ComparedMachine>& compared,
+                                        const std::optional<dynamics::Identification>& identified);
 
 }  // namespace frustum::app

@@ -157,11 +157,25 @@ std::string compared_text(const ComparedMachine& compared) {
   return table.text();
 }
 
+std::string identified_text(const dynamics::Identification& identified) {
+  TextTable table({"identified", "factor", "95 % from", "to"});
+  for (const dynamics::IdentifiedParameter& p : identified.parameters) {
+    table.row({p.name, fixed(p.factor, 4), fixed(p.low, 4), fixed(p.high, 4)});
+  }
+  std::string text = table.text() + fmt::format("left of magnitude and phase: {:.2f} %\n",
+                                                100.0 * identified.noise);
+  for (const auto& combination : identified.not_separated) {
+    text += fmt::format("cannot be separated: {}\n", fmt::join(combination, ", "));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string dynamics_text(const kinematics::Machine& machine, const DynamicModel& model,
                           const DynamicsRequest& request, const DynamicsAnswer& answer,
-                          std::size_t modes, const std::optional<ComparedMachine>& compared) {
+                          std::size_t modes, const std::optional<ComparedMachine>& compared,
+                          const std::optional<dynamics::Identification>& identified) {
   std::string text = fmt::format("{} at {}, tool {:g} mm\n\n", machine.title(),
                                  axes_text(model, request.axes), request.tool_length);
   const auto add = [&](const std::string& part) { text += part + '\n'; };
@@ -192,6 +206,7 @@ std::string dynamics_text(const kinematics::Machine& machine, const DynamicModel
                       {"peak um", answer.move->peak * kMicrometres}}));
   }
   if (compared) add(compared_text(*compared));
+  if (identified) add(identified_text(*identified));
   text.pop_back();
   return text;
 }

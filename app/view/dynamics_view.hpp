@@ -12,6 +12,7 @@ namespace frustum::app {
                                         const dynamics::DynamicModel& model,
                                         const DynamicsRequest& request,
                                         const DynamicsAnswer& answer, std::size_t modes,
-                                        const std::optional<ComparedMachine>& compared);
+                                        const std::optional<ComparedMachine>& compared,
+                                        const std::optional<dynamics::Identification>& identified);
 
 }  // namespace frustum::app

@@ -47,6 +47,25 @@ void SvgDrawing::polyline(const std::vector<SvgPoint>& points, std::string_view 
   if (!path.empty()) html_ += fmt::format("<path{} d=\"{}\"/>\n", class_attribute(classes), path);
 }
 
+void SvgDrawing::swinging(const std::vector<SvgStroke>& one_end,
+                          const std::vector<SvgStroke>& other_end, std::string_view classes) {
+  const auto path = [](const std::vector<SvgStroke>& strokes) {
+    std::string text;
+    for (const auto& [from, to] : strokes) {
+      text +=
+          fmt::format("M{} {}L{} {}", pixels(from.x), pixels(from.y), pixels(to.x), pixels(to.y));
+    }
+    return text;
+  };
+  const std::string one = path(one_end), other = path(other_end);
+  // Nearly a sine: slow at both ends.
+  html_ += fmt::format(
+      "<path{0} d=\"{1}\"><animate attributeName=\"d\" values=\"{1};{2};{1}\" dur=\"1.4s\" "
+      "calcMode=\"spline\" keyTimes=\"0;0.5;1\" keySplines=\"0.37 0 0.63 1;0.37 0 0.63 1\" "
+      "repeatCount=\"indefinite\"/></path>\n",
+      class_attribute(classes), one, other);
+}
+
 void SvgDrawing::rectangle(SvgPoint corner, SvgPoint opposite, std::string_view classes,
                            std::string_view fill) {
   const std::string own = fill.empty() ? "" : fmt::format(" style=\"fill:{}\"", fill);

@@ -16,6 +16,10 @@ struct SvgPoint {
   double y = 0.0;
 };
 
+struct SvgStroke {
+  SvgPoint from{}, to{};
+};
+
 enum class SvgAnchor { start, middle, end };
 
 class SvgDrawing {
@@ -26,6 +30,9 @@ class SvgDrawing {
   void line(SvgPoint from, SvgPoint to, std::string_view classes);
   void circle(SvgPoint centre, double radius, std::string_view classes);
   void polyline(const std::vector<SvgPoint>& points, std::string_view classes);
+  // Strokes that swing to and fro between two places, without a script.
+  void swinging(const std::vector<SvgStroke>& one_end, const std::vector<SvgStroke>& other_end,
+                std::string_view classes);
   // `fill`: a colour of its own, "#rrggbb"; empty: that of its classes.
   void rectangle(SvgPoint corner, SvgPoint opposite, std::string_view classes,
                  std::string_view fill = {});

@@ -76,6 +76,35 @@ TEST_F(DynamicsCommandSystem, PrintsATableForPeople) {
   }
 }
 
+TEST_F(DynamicsCommandSystem, WritesPageResponsesAndMap) {
+  const std::string what = std::string(kPlace) + "--frf 20:60 --map Y=-300:300:3,Z=-100:500:4";
+  EXPECT_EQ(run("dynamics " + what + " --out d --quiet").exit_code, 0);
+  EXPECT_EQ(json::parse(read(folder_ / "d/dynamics.json")), document(what));
+  const std::string page = read(folder_ / "d/report.html");
+  for (const char* part : {"Frequency responses of the tip", "Force along z", "Shapes of the modes",
+                           "<animate", "Over the working space"}) {
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  }
+  EXPECT_TRUE(read(folder_ / "d/frf.uff").starts_with("    -1\n    58\n"));
+  EXPECT_TRUE(read(folder_ / "d/frf.csv").starts_with("frequency_hz,Gxx_re,Gxx_im,Gyx_re"));
+  EXPECT_TRUE(read(folder_ / "d/map.csv").starts_with("Y,Z,|Hx/X..| um/gn\n-300,-100,"));
+}
+
+TEST_F(DynamicsCommandSystem, IdentifiesTheMountsOfAnotherMachine) {
+  write("m.toml", shipped());
+  for (int mount = 0; mount < 4; ++mount) {
+    replace_in("m.toml", "stiffness = [600, 600, 450]", "stiffness = [600, 600, 900]");
+  }
+  EXPECT_EQ(run("dynamics m.toml --axes Z=300 --tool-length 150 --frf 20:160:2 --out d --quiet")
+                .exit_code,
+            0);
+  const json found = document(std::string(kPlace) +
+                              "--measured d/frf.uff --identify mount.stiffness.z,mount.damping");
+  EXPECT_NEAR(found["identified"]["parameters"][0]["factor"].get<double>(), 2.0, 1e-6);
+  EXPECT_NEAR(found["identified"]["parameters"][1]["factor"].get<double>(), 1.0, 1e-6);
+  EXPECT_TRUE(found["identified"]["not_separated"].empty());
+}
+
 struct Refused {
   const char* arguments;
   const char* told;
@@ -98,6 +127,8 @@ TEST_F(DynamicsCommandSystem, RefusesWhatIsWrongWithARemedy) {
       {"iwf-bc --move X:100:1e-9:4:100", "takes"},
       {"iwf-bc --tool-length nan", "length in mm"},
       {"iwf-bc --compare three-axis", "states no masses"},
+      {"iwf-bc --identify mount.stiffness", "needs --measured"},
+      {"iwf-bc --measured none.csv", "none.csv"},
   };
   for (const Refused& refused : kRefused) {
     const Outcome outcome = run(std::string("dynamics ") + refused.arguments);
