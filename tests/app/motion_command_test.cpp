@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/pose.hpp"
 #include "tests/app/command_line.hpp"
 
 namespace frustum {
@@ -328,6 +329,54 @@ TEST_F(MotionSystem, MeasuredTouchesAreIdentifiedAlike) {
   EXPECT_EQ(refused("A_deg,C_deg,point,x_mm,y_mm\n0,0,0,1,2\n"), "missing-column");
   EXPECT_EQ(fault("trace bad.csv --machine zx-yac --plane XY"), "conflicting-options");
   EXPECT_EQ(fault("trace bad.csv --noise 1um"), "conflicting-options");
+}
+
+// The program goes to the planned touches; what it logs is a file of measured touches.
+TEST_F(MotionSystem, TheProbingProgramLogsTouches) {
+  for (const char* machine : {"ac-probe", "zx-yac"}) {
+    fs::remove_all(folder_ / "out");
+    document(fmt::format("touch --machine {} --out out", machine));
+    const Outcome parsed = run("parse out/touch.ngc --dialect linuxcnc --canon");
+    ASSERT_EQ(parsed.exit_code, 0) << parsed.err;
+    std::istringstream lines(parsed.out);
+    std::string csv;
+    json before;
+    Vec3 middle = Vec3::Zero();
+    std::size_t touches = 0;
+    for (std::string line; std::getline(lines, line);) {
+      const json motion = json::parse(line);
+      const auto place = [](const json& end) {
+        return Vec3(end["X"].get<double>(), end["Y"].get<double>(), end["Z"].get<double>());
+      };
+      if (motion["type"] == "probe") {
+        // The ball meets the surface half way.
+        middle = (place(before["end"]) + place(motion["end"])) / 2.0;
+        EXPECT_NEAR((place(before["end"]) - place(motion["end"])).norm(), 20.0, 1e-5);
+        EXPECT_EQ(before["end"].value("A", 0.0), motion["end"].value("A", 0.0));
+        ++touches;
+      }
+      if (motion["type"] == "event" && motion["name"] == "log") {
+        const std::string text = motion["text"];
+        std::size_t end = 0;
+        for (int k = 0; k < 3; ++k) end = text.find(',', end) + 1;
+        csv += touches == 0 ? text + "\n"
+                            : fmt::format("{}{},{},{}\n", text.substr(0, end), middle.x(),
+                                          middle.y(), middle.z());
+      }
+      before = motion;
+    }
+    EXPECT_EQ(touches, 219U);
+    write("log.csv", csv);
+    const json found = document(fmt::format("trace log.csv --machine {}", machine));
+    ASSERT_FALSE(found.is_null());
+    for (const json& row : found["identified"]["A"]) {
+      expect_all(row, {0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, 0.02);
+    }
+    // Nothing but that no part is there to be touched.
+    const Outcome checked = run(fmt::format("check out/touch.ngc --machine {}", machine));
+    EXPECT_NE(checked.out.find("the probe meets nothing"), std::string::npos) << checked.out;
+    EXPECT_NE(checked.out.find("1 error, 0 warnings"), std::string::npos) << checked.out;
+  }
 }
 
 TEST_F(MotionSystem, RefusesWhatCannotBe) {
