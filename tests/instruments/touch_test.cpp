@@ -166,7 +166,8 @@ TEST(TouchPlanReference, PointsAndTouches) {
   }
 }
 
-// On the way in, from the ball centre up, a stylus not thicker than the ball and a holder 100 mm above it.
+// On the way in, from the ball centre up: a stylus not thicker than the ball, and a holder 100 mm
+// above it.
 TEST(TouchPlanLaws, StylusAndHolderAreClearOfTheColumns) {
   const json& geometry = numbers()["geometry"];
   const double half = geometry["half"], bottom = geometry["table_z"];
