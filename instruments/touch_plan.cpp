@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "kinematics/model/joint_motion.hpp"
@@ -87,6 +89,14 @@ const std::array<TouchPoint, kTouchPoints>& touch_points() {
     return points;
   }();
   return kPoints;
+}
+
+double column_reach() {
+  double reach = 0.0;
+  for (const auto& [x, y] : kCentres) {
+    reach = std::max(reach, Vec3(std::abs(x) + kHalfWidth, std::abs(y) + kHalfWidth, kTop).norm());
+  }
+  return reach;
 }
 
 Result<TouchPlan> touch_plan(const Machine& machine) {

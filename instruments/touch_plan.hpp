@@ -30,6 +30,11 @@ struct TouchPoint {
 };
 inline constexpr std::size_t kTouchPoints = 15;
 [[nodiscard]] const std::array<TouchPoint, kTouchPoints>& touch_points();
+// How far from the crossing of the axes a column reaches.
+[[nodiscard]] double column_reach();
+// mm along the normal: the ball comes from so far before the surface, and goes at most so far
+// behind it.
+inline constexpr double kTouchApproach = 10.0;
 
 // One position of an axis, and the rotation by which it turns the table.
 struct TablePosition {

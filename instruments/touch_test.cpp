@@ -16,8 +16,6 @@ using kinematics::AxisLetter;
 using kinematics::AxisPositions;
 using kinematics::Machine;
 
-constexpr double kSearch = 10.0;  // mm, before and behind the nominal surface
-
 // A point of the artefact in the frame of the table, where it nominally is.
 TouchPoint on_table(const TouchPlan& plan, const PlannedTouch& touch) {
   TouchPoint point = touch_points().at(touch.point);
@@ -55,7 +53,7 @@ Result<std::vector<TestPose>> touch_poses(const Machine& machine,
   stops.reserve(2 * plan.touches.size());
   for (const PlannedTouch& touch : plan.touches) {
     const TouchPoint point = on_table(plan, touch);
-    for (const double off : {kSearch, 0.0}) {
+    for (const double off : {kTouchApproach, 0.0}) {
       const Vec3 ball = point.place + (probe.ball_radius + off) * point.normal;
       const AxisPositions q = place_tip(machine, ball, probe.tool_length, turned(plan, touch));
       if (!within_travel(machine, q)) {
@@ -93,7 +91,8 @@ Result<std::vector<double>> touch_readings(const Machine& machine,
     const double slope = nominal.normal.dot(surface.normal);
     double s = probe.ball_radius;
     bool touched = false;
-    for (int step = 0; step < kMostSteps && !touched && std::abs(s - probe.ball_radius) <= kSearch;
+    for (int step = 0;
+         step < kMostSteps && !touched && std::abs(s - probe.ball_radius) <= kTouchApproach;
          ++step) {
       kinematics::AxisState at = poses[i].at;
       at.q = place_tip(machine, nominal.place + s * nominal.normal, probe.tool_length,
@@ -103,10 +102,10 @@ Result<std::vector<double>> touch_readings(const Machine& machine,
       s -= gap / slope;
       touched = std::abs(gap) < kDone;
     }
-    if (!touched || !(std::abs(s - probe.ball_radius) <= kSearch)) {
+    if (!touched || !(std::abs(s - probe.ball_radius) <= kTouchApproach)) {
       return error("touch-missed"_id,
                    fmt::format("{}: no surface within {:g} mm of its nominal place",
-                               place_of(plan, touch), kSearch),
+                               place_of(plan, touch), kTouchApproach),
                    "check the errors and the set-up");
     }
     readings.push_back(s - probe.ball_radius);

@@ -13,8 +13,15 @@ namespace frustum::instruments {
 namespace {
 
 constexpr double kSamePosition = 0.01 * kRadPerDeg;  // an axis that is indexed, not interpolated
-constexpr double kFarthest = 10.0;                   // mm: as far as the probe searches
-const std::vector<std::string> kColumns{"A_deg", "C_deg", "point", "x_mm", "y_mm", "z_mm"};
+const std::vector<std::string> kPlaces{"A_deg", "C_deg", "point"};
+const std::vector<std::string> kTouched{"x_mm", "y_mm", "z_mm"};
+const std::vector<std::string> kBall{"ball_x_mm", "ball_y_mm", "ball_z_mm"};
+
+std::vector<std::string> joined(std::vector<std::string> first,
+                                const std::vector<std::string>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
 
 TouchPoint turned_point(const TouchPlan& plan, const PlannedTouch& touch) {
   const TouchPoint& point = touch_points().at(touch.point);
@@ -35,9 +42,10 @@ struct Row {
   Vec3 place = Vec3::Zero();
 };
 
-Result<Row> row_of(const TraceTable& table, std::size_t row) {
+Result<Row> row_of(const TraceTable& table, std::size_t row,
+                   const std::vector<std::string>& columns) {
   std::vector<double> numbers;
-  for (const std::string& column : kColumns) {
+  for (const std::string& column : columns) {
     const auto number = table.number(row, column);
     if (!number) return number.error();
     numbers.push_back(*number);
@@ -62,18 +70,23 @@ std::optional<std::size_t> planned(const TouchPlan& plan, const Row& row) {
 
 }  // namespace
 
-Result<std::vector<double>> read_touches(const std::filesystem::path& file, const TouchPlan& plan) {
-  const auto table = TraceTable::read(file, kColumns);
+Result<std::vector<double>> read_touches(const std::filesystem::path& file, const TouchPlan& plan,
+                                         double ball_radius) {
+  const auto table = TraceTable::read(file, joined(joined(kPlaces, kTouched), kBall));
   if (!table) return table.error();
-  for (const std::string& column : kColumns) {
+  // Where the machine logs the centre of the ball.
+  const bool of_ball = table->has(kBall.front()) && !table->has(kTouched.front());
+  const std::vector<std::string> columns = joined(kPlaces, of_ball ? kBall : kTouched);
+  for (const std::string& column : columns) {
     if (table->has(column)) continue;
     return table->placed(error("missing-column"_id, fmt::format("column {} is missing", column),
-                               fmt::format("columns: {}", fmt::join(kColumns, ", "))),
+                               fmt::format("columns: {}, and {} or {}", fmt::join(kPlaces, ", "),
+                                           fmt::join(kTouched, ", "), fmt::join(kBall, ", "))),
                          table->header_line());
   }
   std::vector<std::optional<double>> readings(plan.touches.size());
   for (std::size_t r = 0; r < table->rows(); ++r) {
-    const auto row = row_of(*table, r);
+    const auto row = row_of(*table, r, columns);
     if (!row) return row.error();
     const auto at = planned(plan, *row);
     if (!at) {
@@ -91,8 +104,8 @@ Result<std::vector<double>> read_touches(const std::filesystem::path& file, cons
           table->line(r));
     }
     const TouchPoint nominal = turned_point(plan, touch);
-    const Vec3 off = row->place - nominal.place;
-    if (!(off.norm() <= kFarthest)) {
+    const Vec3 off = row->place - (of_ball ? ball_radius : 0.0) * nominal.normal - nominal.place;
+    if (!(off.norm() <= kTouchApproach)) {
       return table->placed(
           error("touch-far"_id,
                 fmt::format("{} is {:.4g} mm from its nominal place ({:.3f}, {:.3f}, {:.3f})",
@@ -118,7 +131,7 @@ Result<std::vector<double>> read_touches(const std::filesystem::path& file, cons
 }
 
 std::string touch_csv(const TouchPlan& plan, const std::vector<double>& readings) {
-  std::string csv = fmt::format("{}\n", fmt::join(kColumns, ","));
+  std::string csv = fmt::format("{}\n", fmt::join(joined(kPlaces, kTouched), ","));
   for (std::size_t t = 0; t < plan.touches.size(); ++t) {
     const PlannedTouch& touch = plan.touches[t];
     const TouchPoint nominal = turned_point(plan, touch);

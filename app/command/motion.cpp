@@ -198,7 +198,8 @@ void add_touch(Command& tests) {
       .within(1, kMostCalibrations);
   command.footer(
       "In --setup, ball is that of the probe, table_ball the artefact. --out also writes "
-      "errors.toml, the maps as an error file, and touches.csv, which `motion trace` reads.\n"
+      "errors.toml, the maps as an error file, touches.csv, which `motion trace` reads, and "
+      "touch.ngc, the program for LinuxCNC.\n"
       "Example: frustum motion touch --machine ac-probe --errors ibaraki-position-dependent "
       "--noise 0.35um --out touch");
   runs_test(command, words);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/motion/touch_report.hpp"
+#include "instruments/touch_program.hpp"
 #include "instruments/touch_test.hpp"
 
 namespace frustum::app {
@@ -100,6 +101,7 @@ Result<MotionAnswer> touch_answer(const TouchWords& words) {
   answer.document["axes"] = axes_of(setup->machine, *poses);
   name_facts(answer.page, *setup);
   add_touch_findings(answer, setup->machine, *plan, found);
+  answer.files["touch.ngc"] = touch_program(*plan, probe);
   return answer;
 }
 

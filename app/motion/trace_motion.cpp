@@ -8,6 +8,7 @@
 #include "app/motion/touch_report.hpp"
 #include "instruments/circle_trace_file.hpp"
 #include "instruments/line_trace_file.hpp"
+#include "instruments/touch_test.hpp"
 #include "instruments/touch_trace_file.hpp"
 
 namespace frustum::app {
@@ -128,7 +129,8 @@ Result<MotionAnswer> touch_trace(const TraceWords& words) {
   if (!setup) return setup.error();
   const auto plan = instruments::touch_plan(setup->machine);
   if (!plan) return plan.error();
-  const auto readings = instruments::read_touches(words.files.front(), *plan);
+  const auto readings =
+      instruments::read_touches(words.files.front(), *plan, instruments::TouchProbe{}.ball_radius);
   if (!readings) return readings.error();
   MotionAnswer answer{.document = trace_head("touch", words),
                       .text = fmt::format("Measured touches on {}\n", setup->machine.name())};

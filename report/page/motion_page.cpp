@@ -9,7 +9,7 @@
 namespace frustum::report {
 namespace {
 
-std::string note_of(const std::string& text) {
+std::string table_note(const std::string& text) {
   return text.empty() ? "" : "<p class=\"note\">" + html_text(text) + "</p>\n";
 }
 
@@ -43,7 +43,7 @@ std::string table_sections(const MotionPage& page) {
       table.row(cells);
     }
     html += section(fmt::format("table-{}", k + 1), html_text(each.heading),
-                    table.html() + note_of(each.note));
+                    table.html() + table_note(each.note));
   }
   return html;
 }
@@ -52,7 +52,7 @@ std::string contribution_section(const MotionPage& page) {
   if (page.contributions.empty()) return {};
   return section("contributions", "Ranked contributions",
                  bar_figure("G of each term alone, and its share of the sum", page.contributions) +
-                     note_of("The sum of all exceeds G where terms cancel."));
+                     table_note("The sum of all exceeds G where terms cancel."));
 }
 
 std::string list_of(const std::vector<std::string>& items) {

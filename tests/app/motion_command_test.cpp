@@ -1,37 +1,16 @@
 // frustum motion as users and scripts see it.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "tests/app/command_line.hpp"
+#include "tests/app/motion_commands.hpp"
 
 namespace frustum {
 namespace {
 
-using nlohmann::json;
-
-class MotionSystem : public CommandLine {
+class MotionSystem : public MotionCommands {
  protected:
-  json document(const std::string& arguments) const {
-    const Outcome outcome = run("motion " + arguments + " --json");
-    EXPECT_EQ(outcome.exit_code, 0) << arguments << outcome.err;
-    return outcome.exit_code == 0 ? json::parse(outcome.out) : json();
-  }
-  // The id of the first fault of a command that must be refused.
-  std::string fault(const std::string& arguments) const {
-    const Outcome outcome = run("motion " + arguments + " --json");
-    EXPECT_EQ(outcome.exit_code, 2) << arguments << outcome.out;
-    EXPECT_FALSE(outcome.err.empty() && outcome.out.empty()) << arguments;
-    const json doc = json::parse(outcome.out, nullptr, false);
-    if (doc.is_discarded()) return outcome.err;
-    return doc["diagnostics"][0]["id"].get<std::string>();
-  }
-  void write(const std::string& file, const std::string& text) const {
-    std::ofstream(folder_ / file, std::ios::binary) << text;
-  }
   static const json& numbers() {
     static const json kNumbers = json::parse(
         std::ifstream(std::string(FRUSTUM_SOURCE_DIR) + "/tests/data/motion_tests.json"));
@@ -55,13 +34,6 @@ class MotionSystem : public CommandLine {
   }
   static constexpr const char* kSetup = " --setup \"ball=10,-5,3;table_ball=6,-4,2;length=2\"";
 };
-
-void expect_all(const json& found, const json& expected, double within) {
-  ASSERT_EQ(found.size(), expected.size());
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    EXPECT_NEAR(found[i].get<double>(), expected[i].get<double>(), within) << i;
-  }
-}
 
 TEST_F(MotionSystem, RotaryReadingsOfEveryMachine) {
   for (const auto& [machine, all] : numbers()["rotary"].items()) {
@@ -242,96 +214,6 @@ TEST_F(MotionSystem, NoiseHasItsStandardDeviationAndItsSeed) {
   const json coarse = document(circle + " --resolution 0.1um");
   const double steps = coarse["ccw_um"][7].get<double>() / 0.1;
   EXPECT_NEAR(steps, std::round(steps), 1e-9);
-}
-
-// The maps of the shipped error file, as computed apart.
-TEST_F(MotionSystem, TouchesIdentifyTheMapsOfAAndC) {
-  const json expected = json::parse(
-      std::ifstream(std::string(FRUSTUM_SOURCE_DIR) + "/tests/data/touch_probing.json"));
-  const std::string touch = "touch --machine ac-probe --errors ibaraki-position-dependent";
-  const auto expect_maps = [](const json& found, const json& a, const json& c, double within) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      expect_all(found["A"][i], a[i], within);
-      for (std::size_t j = 0; j < 6; ++j) expect_all(found["C"][i][j], c[i][j], within);
-    }
-  };
-  const json doc = document(touch + " --out touch");
-  ASSERT_FALSE(doc.is_null());
-  const json& maps = expected["identified_gauge_fixed"];
-  expect_maps(doc["identified"], maps["A"], maps["C"], 2e-6);
-  expect_all(doc["identified"]["poses"][3][2], maps["poses"][3][2], 2e-6);
-  EXPECT_EQ(doc["touches"], 219);
-  EXPECT_EQ(doc["A_deg"], expected["A_deg"]);
-  EXPECT_EQ(doc["C_deg"], expected["C_deg"]);
-  EXPECT_EQ(doc["sd"]["A"][2], json::array({0.0, 0.0, 0.0, 0.0, 0.0, 0.0}));
-  EXPECT_LT(doc["largest_difference"]["um"].get<double>(), 2e-4);
-  EXPECT_LT(doc["largest_difference"]["urad"].get<double>(), 5e-4);
-  // The maps are errors like any others, and are found again.
-  const json again = document("touch --machine ac-probe --errors touch/errors.toml");
-  expect_maps(again["identified"], maps["A"], maps["C"], 0.001);
-  EXPECT_NE(read(folder_ / "touch/motion.html").find("EBC, at each position of A"),
-            std::string::npos);
-
-  const json noisy = document(touch + " --noise 0.35um --seed 5 --repeat 500");
-  expect_maps(noisy["sd"], expected["sd_A_analytic"], expected["sd_C_analytic"], 1e-6);
-  EXPECT_NEAR(noisy["scatter"]["A"][1][0].get<double>() / noisy["sd"]["A"][1][0].get<double>(), 1.0,
-              0.15);
-  EXPECT_EQ(document(touch + " --noise 0.35um --seed 5")["identified"], noisy["identified"]);
-  EXPECT_NE(document(touch + " --noise 0.35um --seed 6")["identified"], noisy["identified"]);
-
-  const Outcome text = run("motion " + touch + " --noise 0.35um");
-  EXPECT_NE(text.out.find("219 touches"), std::string::npos) << text.out;
-  EXPECT_NE(text.out.find("A -30, C 300"), std::string::npos) << text.out;
-  EXPECT_EQ(text.out.find("-0.000 "), std::string::npos) << text.out;
-
-  EXPECT_EQ(fault("touch --machine iwf-bc"), "machine-unsuited");
-  EXPECT_EQ(fault("touch --machine ac-probe --error EX0C=20mm"), "touch-missed");
-  EXPECT_EQ(fault("touch --machine ac-probe --tool-length 700"), "axis-overtravel");
-  EXPECT_EQ(fault("touch --machine ac-probe --setup length=5"), "setup-without-effect");
-  EXPECT_EQ(fault("touch --machine ac-probe --noise 3"), "wrong-quantity");
-  EXPECT_EQ(run("motion touch --machine ac-probe --repeat 0").exit_code, 2);
-}
-
-// Touches as a machine reports them, in any order, with points or commas.
-TEST_F(MotionSystem, MeasuredTouchesAreIdentifiedAlike) {
-  for (const char* machine : {"ac-probe", "zx-yac"}) {
-    fs::remove_all(folder_ / "out");
-    const json virtual_one = document(fmt::format(
-        "touch --machine {} --error EX0C=5um --error EB0A=9urad --error \"EYC=harmonic 1 3um\" "
-        "--noise 0.35um --seed 9 --out out",
-        machine));
-    const std::string trace = fmt::format(" --machine {} --noise 0.35um", machine);
-    const json measured = document("trace out/touches.csv" + trace);
-    ASSERT_FALSE(measured.is_null());
-    for (std::size_t j = 0; j < 6; ++j) {
-      expect_all(measured["identified"]["C"][2][j], virtual_one["identified"]["C"][2][j], 1e-4);
-    }
-    EXPECT_EQ(measured["sd"], virtual_one["sd"]);
-    EXPECT_FALSE(measured.contains("visible"));
-    std::istringstream csv(read(folder_ / "out/touches.csv"));
-    std::string header, rows;
-    std::getline(csv, header);
-    for (std::string line; std::getline(csv, line);) rows.insert(0, line + "\n");
-    std::string commas = header + "\n" + rows;
-    std::ranges::replace(commas, ',', ';');
-    std::ranges::replace(commas, '.', ',');
-    write("commas.csv", commas);
-    EXPECT_EQ(document("trace commas.csv" + trace)["identified"], measured["identified"]);
-  }
-  const std::string csv = read(folder_ / "out/touches.csv");
-  const std::string row =
-      csv.substr(csv.find('\n') + 1, csv.find('\n', csv.find('\n') + 1) - csv.find('\n'));
-  const auto refused = [&](const std::string& text) {
-    write("bad.csv", text);
-    return fault("trace bad.csv --machine zx-yac");
-  };
-  EXPECT_EQ(refused(csv + row), "given-twice");
-  EXPECT_EQ(refused(csv + "45,0,3,0,0,0\n"), "touch-unplanned");
-  EXPECT_EQ(refused("A_deg,C_deg,point,x_mm,y_mm,z_mm\n0,0,0,-0.125,-0.075,0.07\n"), "touch-far");
-  EXPECT_EQ(refused("A_deg,C_deg,point,x_mm,y_mm,z_mm\n" + row), "touch-missing");
-  EXPECT_EQ(refused("A_deg,C_deg,point,x_mm,y_mm\n0,0,0,1,2\n"), "missing-column");
-  EXPECT_EQ(fault("trace bad.csv --machine zx-yac --plane XY"), "conflicting-options");
-  EXPECT_EQ(fault("trace bad.csv --noise 1um"), "conflicting-options");
 }
 
 TEST_F(MotionSystem, RefusesWhatCannotBe) {

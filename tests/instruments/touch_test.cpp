@@ -166,7 +166,8 @@ TEST(TouchPlanReference, PointsAndTouches) {
   }
 }
 
-// From the ball centre up, a stylus not thicker than the ball and a holder 100 mm above it.
+// On the way in, from the ball centre up: a stylus not thicker than the ball, and a holder 100 mm
+// above it.
 TEST(TouchPlanLaws, StylusAndHolderAreClearOfTheColumns) {
   const json& geometry = numbers()["geometry"];
   const double half = geometry["half"], bottom = geometry["table_z"];
@@ -179,17 +180,19 @@ TEST(TouchPlanLaws, StylusAndHolderAreClearOfTheColumns) {
     const TouchPoint& point = touch_points().at(touch.point);
     const Mat3 rotation = c.plan.rotation(touch);
     EXPECT_GE((rotation * point.normal).z(), -kRounding) << touch.point;
-    const Vec3 ball = rotation * (point.place + radius * point.normal);
-    for (const json& centre : geometry["centres"]) {
-      const Vec3 low(centre[0].get<double>() - half, centre[1].get<double>() - half, bottom);
-      const Vec3 high = low + Vec3(2.0 * half, 2.0 * half, height);
-      const auto distance = [&](double up) {
-        const Vec3 p = rotation.transpose() * (ball + Vec3(0.0, 0.0, up));
-        return (p - p.cwiseMax(low).cwiseMin(high)).norm();
-      };
-      for (double up = 0.0; up < 400.0; up += 0.5) {
-        EXPECT_GE(distance(up), radius - kRounding) << touch.point << ' ' << up;
-        if (up >= stylus) nearest_holder = std::min(nearest_holder, distance(up));
+    for (double off = 0.0; off <= kTouchApproach; off += 2.0) {
+      const Vec3 ball = rotation * (point.place + (radius + off) * point.normal);
+      for (const json& centre : geometry["centres"]) {
+        const Vec3 low(centre[0].get<double>() - half, centre[1].get<double>() - half, bottom);
+        const Vec3 high = low + Vec3(2.0 * half, 2.0 * half, height);
+        const auto distance = [&](double up) {
+          const Vec3 p = rotation.transpose() * (ball + Vec3(0.0, 0.0, up));
+          return (p - p.cwiseMax(low).cwiseMin(high)).norm();
+        };
+        for (double up = 0.0; up < 400.0; up += 0.5) {
+          EXPECT_GE(distance(up), radius - kRounding) << touch.point << ' ' << up;
+          if (up >= stylus) nearest_holder = std::min(nearest_holder, distance(up));
+        }
       }
     }
   }
