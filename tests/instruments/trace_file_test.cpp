@@ -136,6 +136,45 @@ TEST_F(TraceFiles, FaultsHaveTheirLine) {
   EXPECT_FALSE(read_circle_traces(none, kWords));
 }
 
+// Bytes of good files exchanged at random: what is accepted is finite, what is refused has its file.
+TEST_F(TraceFiles, DamagedFilesDoNoHarm) {
+  const std::vector<std::string> good{
+      "# plane "
+      "XY\nrun,angle_deg,radial_um\nccw,0,1.5\nccw,1,-2\nccw,2,0.25\ncw,2,1\ncw,1,0\ncw,0,0\n",
+      "# radius 150\nrun;time_s;length_mm\nccw;0,1;150,001\nccw;0,2;150,002\nccw;0,3;149,9\n",
+      "run,direction,target_mm,deviation_um\n1,up,0,1\n1,up,5,2\n1,down,5,0\n1,down,0,1\n"};
+  const std::string bytes = "0123456789.,;-+e#\n\r\t \"ccwupdown\xff\xfenaninf";
+  const RandomKey key{.seed = 31};
+  int accepted = 0;
+  for (std::uint64_t n = 0; n < 3000; ++n) {
+    std::string text = good[n % good.size()];
+    for (std::uint64_t k = 0; k <= n % 4; ++k) {
+      const auto draw = [&](std::uint64_t what, std::size_t count) {
+        return static_cast<std::size_t>(uniform(key, 20 * n + 4 * k + what) *
+                                        static_cast<double>(count));
+      };
+      text[draw(0, text.size())] = bytes[draw(1, bytes.size())];
+    }
+    const fs::path damaged = file("d.csv", text);
+    const std::vector<fs::path> files{damaged};
+    const auto circle = read_circle_traces(files, kWords);
+    const auto line = read_line_trace(damaged);
+    for (const Diagnostics* problems :
+         {circle ? nullptr : &circle.error(), line ? nullptr : &line.error()}) {
+      if (problems == nullptr) continue;
+      EXPECT_FALSE(problems->front().file.empty()) << text;
+    }
+    if (!circle) continue;
+    ++accepted;
+    for (const CircleTrace& trace : circle->traces) {
+      ASSERT_EQ(trace.angle.size(), trace.deviation.size());
+      for (const double angle : trace.angle) EXPECT_TRUE(std::isfinite(angle)) << text;
+      for (const double d : trace.deviation) EXPECT_LE(std::abs(d), 1.0) << text;
+    }
+  }
+  EXPECT_GT(accepted, 100);
+}
+
 TEST_F(TraceFiles, LinesAreSortedByTargetAndRun) {
   const auto trace = read_line_trace(
       file("l.csv",
