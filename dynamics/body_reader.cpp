@@ -47,7 +47,7 @@ SolidShape read_shape(const TomlTable& table) {
 
 Solid read_solid(const TomlTable& table) {
   Solid solid{.shape = read_shape(table)};
-  solid.at = table.vector_or("at", Vec3::Zero()) * kMetresPerMm;
+  if (table.has("at")) solid.at = point_of(table, "at");
   const Vec3 turn = table.vector_or("rotation", Vec3::Zero()) * kRadPerDeg;
   solid.rotation = rotation_z(turn.z()) * rotation_y(turn.y()) * rotation_x(turn.x());
   if (table.has("mass") == table.has("density")) {
@@ -83,6 +83,17 @@ RigidBody read_solids(const TomlTable& table) {
 
 }  // namespace
 
+Vec3 point_of(const TomlTable& table, std::string_view key) {
+  constexpr double kFarthest = 1e6;  // mm: a kilometre
+  const Vec3 point = table.vector(key);
+  if (point.cwiseAbs().maxCoeff() > kFarthest) {
+    table.fail(key, "out-of-range"_id, "the point is more than a kilometre away",
+               "[x, y, z] in mm");
+    return Vec3::Zero();
+  }
+  return point * kMetresPerMm;
+}
+
 RigidBody read_body(const TomlTable& table) {
   if (table.has("element")) return read_solids(table);
   RigidBody body;
@@ -91,10 +102,12 @@ RigidBody read_body(const TomlTable& table) {
     table.fail("mass", "out-of-range"_id,
                fmt::format("no part of a machine weighs {:g} kg", body.mass), "in kg");
   }
-  body.centre = table.vector("com") * kMetresPerMm;
+  body.centre = point_of(table, "com");
+  const bool was_sound = table.is_sound();
   const std::vector<double> entries = table.numbers("inertia");
   if (entries.size() != 6) {
-    if (!entries.empty()) {
+    // What has an entry that is no number has been reported.
+    if (!was_sound || table.is_sound()) {
       table.fail("inertia", "wrong-type"_id,
                  fmt::format("expected six numbers, found {}", entries.size()),
                  "[xx, yy, zz, xy, xz, yz] in kg m^2 about the centre of mass, xy = -sum m x y");

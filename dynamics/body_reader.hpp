@@ -11,6 +11,9 @@ namespace frustum::dynamics {
 
 constexpr double kMetresPerMm = 1e-3;
 
+// A point in metres, from mm.
+[[nodiscard]] Vec3 point_of(const TomlTable& table, std::string_view key);
+
 // [dynamics.body.X]: mass, com, inertia; or [[dynamics.body.X.element]].
 [[nodiscard]] RigidBody read_body(const TomlTable& table);
 

@@ -77,10 +77,21 @@ Attached attached(const TomlTable& table) {
   return static_cast<Attached>(table.choice_or("on", {"moving", "fixed"}, 0));
 }
 
-Vec3 point(const TomlTable& table, const char* key) { return table.vector(key) * kMetresPerMm; }
+// From `least` to `most`; beyond them it is in another unit.
+double number_within(const TomlTable& table, const char* key, double least, double most,
+                     const char* unit) {
+  const double value = table.number(key);
+  if (!(value >= least && value <= most)) {
+    table.fail(key, "out-of-range"_id,
+               fmt::format("{:g} is not within {:g} and {:g}", value, least, most),
+               fmt::format("in {}", unit));
+    return least;
+  }
+  return value;
+}
 
 Mount read_mount(const TomlTable& table) {
-  Mount mount{.at = point(table, "at")};
+  Mount mount{.at = point_of(table, "at")};
   const Vec3 stiffness = table.vector("stiffness"), damping = table.vector("damping");
   for (Eigen::Index i = 0; i < 3; ++i) {
     mount.stiffness[i] = in_si(table, "stiffness", stiffness[i], kStiffness);
@@ -94,11 +105,13 @@ Mount read_mount(const TomlTable& table) {
 constexpr double kWrittenDigits = 1e-9;
 
 Carriage read_carriage(const TomlTable& table, const Joint& joint) {
-  Carriage carriage{.at = point(table, "at")};
+  Carriage carriage{.at = point_of(table, "at")};
   carriage.normal = table.vector("normal");
   const double length = carriage.normal.norm();
   const double along = carriage.normal.dot(joint.direction);
-  if (table.is_array("normal") && std::abs(length - 1.0) > kWrittenDigits) {
+  if (!table.is_sound()) {
+    // What was no vector has been reported.
+  } else if (std::abs(length - 1.0) > kWrittenDigits) {
     table.fail("normal", "axis-directions"_id,
                fmt::format("the direction has length {}, not 1", length), "give a unit vector");
   } else if (std::abs(along) > kWrittenDigits) {
@@ -127,7 +140,7 @@ Carriage read_carriage(const TomlTable& table, const Joint& joint) {
 }
 
 Bearing read_bearing(const TomlTable& table) {
-  Bearing bearing{.at = point(table, "at")};
+  Bearing bearing{.at = point_of(table, "at")};
   bearing.axial = pair_of(table, "axial", kStraight);
   bearing.radial = pair_of(table, "radial", kStraight);
   if (table.has("tilt")) bearing.tilt = pair_of(table, "tilt", kTurning);
@@ -141,7 +154,7 @@ SpringDamper read_spring(const TomlTable& table, const SpringUnits& units) {
 }
 
 Drive read_drive(const TomlTable& table, const SpringUnits& units) {
-  return {point(table, "at"), read_spring(table, units), attached(table)};
+  return {point_of(table, "at"), read_spring(table, units), attached(table)};
 }
 
 std::optional<Control> read_control(const TomlTable& table, const Joint& joint) {
@@ -150,19 +163,24 @@ std::optional<Control> read_control(const TomlTable& table, const Joint& joint) 
   if (kind == kSpring) return std::nullopt;
   const SpringUnits& units = joint.rotary() ? kTurning : kStraight;
   Control control{.kind = kind == kScrew ? Control::Kind::screw : Control::Kind::direct};
-  control.position_gain = table.number("kv", Bound::positive);
-  control.velocity_gain = table.number("kp", Bound::positive) * units.damping.si;
+  const char* mass = joint.rotary() ? "kg m^2" : "kg";
+  const auto share = [&](const char* key) {
+    return table.has(key) ? number_within(table, key, 0.0, 2.0, "shares of 1") : 0.0;
+  };
+  control.position_gain = number_within(table, "kv", 1e-3, 1e5, "1/s");
+  control.velocity_gain =
+      number_within(table, "kp", 1e-9, units.damping.most, units.damping.name) * units.damping.si;
   if (table.has("tn")) {
-    control.integral_time = table.number("tn", Bound::positive) / kMillisecondsPerSecond;
+    control.integral_time = number_within(table, "tn", 1e-3, 1e6, "ms") / kMillisecondsPerSecond;
   }
-  control.feed_forward_velocity = table.number_or("feed_forward_velocity", 0.0);
-  control.feed_forward_acceleration = table.number_or("feed_forward_acceleration", 0.0);
+  control.feed_forward_velocity = share("feed_forward_velocity");
+  control.feed_forward_acceleration = share("feed_forward_acceleration");
   const bool forward = control.feed_forward_acceleration != 0.0;
   if (forward || table.has("reference_inertia")) {
-    control.reference_inertia = table.number("reference_inertia", Bound::positive);
+    control.reference_inertia = number_within(table, "reference_inertia", 1e-9, 1e7, mass);
   }
   if (kind == kScrew) {
-    control.motor_inertia = table.number("motor_inertia", Bound::positive);
+    control.motor_inertia = number_within(table, "motor_inertia", 1e-9, 1e7, mass);
     control.screw = read_spring(table, units);
     if (control.screw.stiffness == 0.0) {
       table.fail("stiffness", "out-of-range"_id, "a screw without stiffness moves nothing",
@@ -170,7 +188,7 @@ std::optional<Control> read_control(const TomlTable& table, const Joint& joint) 
     }
   }
   if (table.has("scale")) {
-    control.scale = Control::Scale{point(table, "scale"), attached(table)};
+    control.scale = Control::Scale{point_of(table, "scale"), attached(table)};
   }
   return control;
 }
