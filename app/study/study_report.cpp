@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/study/sampler.hpp"
@@ -178,7 +179,8 @@ void add_shares(StudyPage& page, const StudyResult& result) {
   }
 }
 
-// One map a place of the part: inclination along, cone angle down.
+// Of each quantity one map a place of the part, all in the same shades: inclination along, cone
+// angle down.
 void add_maps(StudyPage& page, const StudyResult& result) {
   const auto place = [](const studies::MapRow& row) {
     return fmt::format("{:g}, {:g}, {:g} mm", row.center_mm[0], row.center_mm[1], row.center_mm[2]);
@@ -197,32 +199,42 @@ void add_maps(StudyPage& page, const StudyResult& result) {
       inclinations.push_back(row.inclination_deg);
     if (std::ranges::find(places, place(row)) == places.end()) places.push_back(place(row));
   }
-  for (const std::string& at_place : places) {
-    const auto add = [&](const std::string& title, auto value) {
-      report::HeatMap map{title + ", part at " + at_place,
-                          "cone half angle",
-                          "inclination",
-                          names(cones),
-                          names(inclinations),
-                          {}};
-      for (const double cone : cones) {
-        for (const double inclination : inclinations) {
-          std::optional<double> found;
-          for (const studies::MapRow& row : result.map) {
-            if (row.cone_angle_deg == cone && row.inclination_deg == inclination &&
-                place(row) == at_place) {
-              found = value(row);
-            }
+  const auto map_at = [&](const std::string& title, const std::string& at_place, auto value) {
+    report::HeatMap map{title + ", part at " + at_place,
+                        "cone half angle",
+                        "inclination",
+                        names(cones),
+                        names(inclinations),
+                        {}};
+    for (const double cone : cones) {
+      for (const double inclination : inclinations) {
+        std::optional<double> found;
+        for (const studies::MapRow& row : result.map) {
+          if (row.cone_angle_deg == cone && row.inclination_deg == inclination &&
+              place(row) == at_place) {
+            found = value(row);
           }
-          map.values.push_back(found);
         }
+        map.values.push_back(found);
       }
-      page.maps.push_back(std::move(map));
-    };
-    add("Signal, rms µm", [](const studies::MapRow& row) { return row.rms_um; });
-    add("Errors that show", [](const studies::MapRow& row) { return double(row.shown); });
-    add("Directions", [](const studies::MapRow& row) { return row.directions; });
-  }
+    }
+    return map;
+  };
+  const auto add = [&](const std::string& title, auto value) {
+    const std::size_t first = page.maps.size();
+    std::optional<std::array<double, 2>> shades;
+    for (const std::string& at_place : places) {
+      page.maps.push_back(map_at(title, at_place, value));
+      const auto range = report::range_of(page.maps.back());
+      if (!range) continue;
+      if (!shades) shades = range;
+      shades = {std::min((*shades)[0], (*range)[0]), std::max((*shades)[1], (*range)[1])};
+    }
+    for (std::size_t i = first; i < page.maps.size(); ++i) page.maps[i].shades = shades;
+  };
+  add("Signal, rms µm", [](const studies::MapRow& row) { return row.rms_um; });
+  add("Errors that show", [](const studies::MapRow& row) { return double(row.shown); });
+  add("Directions", [](const studies::MapRow& row) { return row.directions; });
 }
 
 }  // namespace

@@ -24,13 +24,19 @@ std::string shade(double share) {
 
 }  // namespace
 
-std::string heat_map_figure(const HeatMap& map) {
-  double low = 1e300, high = -1e300;
+std::optional<std::array<double, 2>> range_of(const HeatMap& map) {
+  std::optional<std::array<double, 2>> range;
   for (const auto& value : map.values) {
     if (!value) continue;
-    low = std::min(low, *value);
-    high = std::max(high, *value);
+    if (!range) range = {*value, *value};
+    range = {std::min((*range)[0], *value), std::max((*range)[1], *value)};
   }
+  return range;
+}
+
+std::string heat_map_figure(const HeatMap& map) {
+  const auto [low, high] =
+      map.shades ? *map.shades : range_of(map).value_or(std::array<double, 2>{0.0, 0.0});
   constexpr double kLeft = 150.0, kTop = 46.0, kRow = 44.0;
   const double width = 900.0;
   const double cell =

@@ -3,6 +3,7 @@
 // Units: those of the values. Errors: none; a cell without a value stays empty.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,8 +15,12 @@ struct HeatMap {
   std::string row_title{}, column_title{};
   std::vector<std::string> rows{}, columns{};
   std::vector<std::optional<double>> values{};  // row by row
+  // Values of the lightest and the darkest cell, shared by maps that are compared; absent: its own.
+  std::optional<std::array<double, 2>> shades{};
 };
 
+// Of the least and the largest value; absent where there is none.
+[[nodiscard]] std::optional<std::array<double, 2>> range_of(const HeatMap& map);
 [[nodiscard]] std::string heat_map_figure(const HeatMap& map);
 
 }  // namespace frustum::report

@@ -174,19 +174,25 @@ std::string allocation_section(const StudyPage& page) {
 
 std::string map_section(const StudyPage& page) {
   if (page.maps.empty()) return {};
+  const HeatMap& first = page.maps.front();
+  std::string csv =
+      "quantity," + csv_field(first.row_title) + "," + csv_field(first.column_title) + ",value\n";
   std::string content;
   for (const HeatMap& map : page.maps) {
     content += heat_map_figure(map);
-    std::string csv = csv_field(map.row_title) + "," + csv_field(map.column_title) + ",value\n";
-    for (std::size_t i = 0; i < map.rows.size(); ++i) {
-      for (std::size_t k = 0; k < map.columns.size(); ++k) {
-        const auto& value = map.values[i * map.columns.size() + k];
-        if (!value) continue;
-        csv += fmt::format("{},{},{}\n", csv_field(map.rows[i]), csv_field(map.columns[k]), *value);
-      }
+    for (std::size_t i = 0; i < map.values.size(); ++i) {
+      if (!map.values[i]) continue;
+      csv += fmt::format("{},{},{},{}\n", csv_field(map.title),
+                         csv_field(map.rows[i / map.columns.size()]),
+                         csv_field(map.columns[i % map.columns.size()]), *map.values[i]);
     }
-    content += csv_link(file_name(map.title) + ".csv", csv);
   }
+  content += csv_link("set-ups.csv", csv);
+  content +=
+      "<p class=\"note\">Signal: root mean square of all points' deviations over all machines. "
+      "Errors that show: how many of them, alone and at their limits, make 1 µm of form or more. "
+      "Directions: in how many independent ways the deviations scatter (participation ratio). A "
+      "strong signal in few directions does not tell one error from another.</p>";
   return section("maps", "Set-ups", content);
 }
 

@@ -3,23 +3,22 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 #include <tbb/parallel_for.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <cstring>
 #include <span>
 #include <utility>
+
+#include "studies/samples/packed_chunk.hpp"
 
 namespace frustum::studies {
 namespace {
 
 // Bytes of a chunk: a column of a part has four, which are packed at once.
 constexpr std::size_t kChunkBytes = 1U << 17U;
-// The least of zlib; the last digits of samples are noise, and stored as they are.
+// What the library is told of the filter: packed_chunk.hpp packs.
 constexpr int kDeflateLevel = 1;
-constexpr int kStored = 0;
 // Bytes by which the image of a file grows.
 constexpr std::size_t kImageBytes = 1U << 20U;
 
@@ -72,62 +71,6 @@ Handle in_memory() {
 
 // What the library would print of its own of each refusal.
 void be_silent() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
-
-// First the first bytes of all numbers, then all second ones, as the library's own filter does.
-std::vector<unsigned char> shuffled(const unsigned char* data, std::size_t count,
-                                    std::size_t size) {
-  std::vector<unsigned char> bytes(count * size);
-  for (std::size_t b = 0; b < size; ++b) {
-    for (std::size_t i = 0; i < count; ++i) bytes[b * count + i] = data[i * size + b];
-  }
-  return bytes;
-}
-void unshuffle(const std::vector<unsigned char>& bytes, std::size_t size, std::size_t wanted,
-               unsigned char* data) {
-  const std::size_t count = bytes.size() / size;
-  for (std::size_t b = 0; b < size; ++b) {
-    for (std::size_t i = 0; i < wanted; ++i) data[i * size + b] = bytes[b * count + i];
-  }
-}
-
-// Whether all bytes are about equally frequent, so that nothing is gained by packing them: their
-// squared counts add up to n^2 / 256, and for n random ones to n more.
-bool is_noise(std::span<const unsigned char> bytes) {
-  std::array<std::uint64_t, 256> counts{};
-  for (const unsigned char byte : bytes) ++counts[byte];
-  double squares = 0.0;
-  for (const std::uint64_t c : counts) squares += static_cast<double>(c * c);
-  const auto n = static_cast<double>(bytes.size());
-  constexpr double kGain = 1.05;  // packing would save some two parts in a hundred
-  return squares <= kGain * n * n / 256.0 + n;
-}
-
-// One stream of zlib, whatever its parts are; empty: zlib has failed.
-std::vector<unsigned char> packed(const std::vector<unsigned char>& bytes, NumberKind kind) {
-  const std::size_t size = type_of(kind).size;
-  constexpr std::size_t kOfBlocks = 1024;  // beginnings and ends of parts
-  std::vector<unsigned char> small(compressBound(static_cast<uLong>(bytes.size())) + kOfBlocks);
-  z_stream stream{};
-  if (deflateInit(&stream, kDeflateLevel) != Z_OK) return {};
-  stream.next_out = small.data();
-  stream.avail_out = static_cast<uInt>(small.size());
-  const std::size_t count = bytes.size() / size;
-  bool is_done = true;
-  for (std::size_t b = 0; b < size; ++b) {
-    const auto plane = std::span(bytes).subspan(b * count, count);
-    const bool is_stored = kind == NumberKind::real && is_noise(plane);
-    is_done = is_done && deflateParams(&stream, is_stored ? kStored : kDeflateLevel,
-                                       Z_DEFAULT_STRATEGY) == Z_OK;
-    stream.next_in = const_cast<unsigned char*>(plane.data());  // which zlib only reads
-    stream.avail_in = static_cast<uInt>(plane.size());
-    const bool is_last = b + 1 == size;
-    const int end = deflate(&stream, is_last ? Z_FINISH : Z_NO_FLUSH);
-    is_done = is_done && end == (is_last ? Z_STREAM_END : Z_OK);
-  }
-  small.resize(is_done ? stream.total_out : 0);
-  deflateEnd(&stream);
-  return small;
-}
 
 Handle text_type(std::size_t length) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
@@ -250,7 +193,7 @@ bool Hdf5Writer::write_numbers(const std::string& name, const void* data, Number
     std::vector<unsigned char> whole(high * row_bytes);  // the last one is filled up with zeros
     std::memcpy(whole.data(), static_cast<const unsigned char*>(data) + first * row_bytes,
                 count * row_bytes);
-    small[c] = packed(shuffled(whole.data(), high * wide, type.size), kind);
+    small[c] = packed_chunk(whole, type.size, kind == NumberKind::real);
     return !small[c].empty();
   });
   if (!all_packed) return image_->refuse(name);
@@ -425,14 +368,9 @@ std::optional<std::vector<unsigned char>> unpacked(hid_t dataset, const NumberTy
   }
   std::vector<unsigned char> data(rows * row_bytes);
   const bool read = all_of_them(chunks, [&](std::size_t c) {
-    std::vector<unsigned char> bytes(high * row_bytes);
-    uLongf length = static_cast<uLongf>(bytes.size());
-    const bool whole = uncompress(bytes.data(), &length, small[c].data(),
-                                  static_cast<uLong>(small[c].size())) == Z_OK &&
-                       length == bytes.size();
     const std::size_t first = c * high, count = std::min(high, rows - first);
-    if (whole) unshuffle(bytes, type.size, count * wide, &data[first * row_bytes]);
-    return whole;
+    return unpack_chunk(small[c], type.size, high * row_bytes,
+                        std::span(data).subspan(first * row_bytes, count * row_bytes));
   });
   if (!read) return std::nullopt;
   return data;

@@ -1,5 +1,5 @@
-// The linear engine through an NC program, its cut and its probes: whether its bound holds, and what
-// it refuses. A cone in chords of 5 nm, measured alone, so that points are followed from one
+// The linear engine through an NC program, its cut and its probes: whether its bound holds, and
+// what it refuses. A cone in chords of 5 nm, measured alone, so that points are followed from one
 // machine to the next.
 #include "app/study/engine_choice.hpp"
 

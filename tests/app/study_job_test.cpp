@@ -109,10 +109,10 @@ double ring_form(const studies::RingPopulation& ring, std::span<const double> va
 }
 
 // Whole machines: each cuts the program and is measured. The plan has the cone alone, so that its
-// points are followed from one machine to the next. Where an axis reverses within 0.3 deg of a point
-// that the form rests on, the cut on one side of the jump takes that point, too, which the ring's
-// tip leaves: up to two draws in a hundred differ by more than 0.1 um + 2 %. Without their reversals
-// nearly all of them do not.
+// points are followed from one machine to the next. Where an axis reverses within 0.3 deg of a
+// point that the form rests on, the cut on one side of the jump takes that point, too, which the
+// ring's tip leaves: up to two draws in a hundred differ by more than 0.1 um + 2 %. Without their
+// reversals nearly all of them do not.
 TEST_P(StudyJobReference, WholeMachinesMakeTheConesOfTheRing) {
   const auto& [setup, read] = GetParam();
   auto study = cone_study(setup, read);

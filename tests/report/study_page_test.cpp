@@ -80,13 +80,22 @@ TEST(StudyPage, DrawsSharesRisksScatterAndMapsWhereTheyAreAsked) {
   page.characteristics[0].risk = RiskCurve{{0.0, 0.5, 1.0}, {0.02, 0.01, 0.001}, {0.02, 0.06, 0.1}};
   page.shares = {{"EXX", 0.6, 0.8}, {"EYY", 0.4, 0.5}};
   page.scatter = {ScatterSeries{"a", {1.0, 2.0}, {1.5}}, ScatterSeries{"b", {3.0, 4.0}, {}}};
-  page.maps = {{"rms", "cone", "inclination", {"30°"}, {"10°", "20°"}, {2.5, std::nullopt}}};
+  page.maps = {{"rms", "cone", "inclination", {"30°"}, {"10°", "20°"}, {2.5, std::nullopt}, {}}};
   const std::string html = study_html(page);
   EXPECT_EQ(count(html, "class=\"column s"), 4U);
   EXPECT_EQ(count(html, "class=\"spot s1\""), 2U);
   EXPECT_EQ(count(html, "class=\"cell\""), 1U) << "a set-up without a value stays empty";
   EXPECT_THAT(html, HasSubstr("What a guard band costs"));
   EXPECT_EQ(count(html, "<a download="), 6U);
+}
+
+TEST(StudyPage, MapsThatAreComparedShareTheirShades) {
+  HeatMap map{"rms", "cone", "inclination", {"30°"}, {"10°", "20°"}, {1.0, 2.0}, {}};
+  EXPECT_EQ(range_of(map), (std::array<double, 2>{1.0, 2.0}));
+  const std::string darkest = "#103e70";
+  EXPECT_THAT(heat_map_figure(map), HasSubstr(darkest));
+  map.shades = {1.0, 3.0};
+  EXPECT_THAT(heat_map_figure(map), Not(HasSubstr(darkest)));
 }
 
 }  // namespace

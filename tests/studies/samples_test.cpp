@@ -8,12 +8,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "core/random.hpp"
 #include "core/whole_file.hpp"
 #include "studies/samples/campaign.hpp"
+#include "studies/samples/packed_chunk.hpp"
 #include "studies/samples/sample_file.hpp"
 #include "studies/samples/sample_folder.hpp"
 #include "tests/law_count.hpp"
@@ -228,6 +230,29 @@ TEST_F(SampleFolders, KeepWhatWasComputedWhenADrawOrADiskFails) {
   ASSERT_TRUE(compute(campaign(), *folder, Ranks(), 5000));
   EXPECT_EQ(bytes_in(folder_).size(), 1U);
   EXPECT_TRUE(same(*folder->read(0), drawn(0, 5000)));
+}
+
+TEST(PackedChunk, GivesBackNoisyEqualAndWholeNumbers) {
+  const auto key = [](std::uint32_t i) { return RandomKey{1, i, RandomPurpose::error_amount}; };
+  std::vector<double> noisy, equal(5000, 0.25);
+  std::vector<std::int64_t> whole;
+  for (std::uint32_t i = 0; i < 5000; ++i) {
+    noisy.push_back(5.0 + uniform(key(i), 7));
+    whole.push_back(i);
+  }
+  const auto packed_size = [](const auto& numbers, bool are_real) {
+    const std::span bytes(reinterpret_cast<const unsigned char*>(numbers.data()),
+                          numbers.size() * 8);
+    const auto packed = packed_chunk(bytes, 8, are_real);
+    std::vector<unsigned char> some(1000 * 8);
+    EXPECT_TRUE(unpack_chunk(packed, 8, bytes.size(), some));
+    EXPECT_TRUE(std::ranges::equal(some, bytes.first(some.size())));
+    EXPECT_FALSE(unpack_chunk(std::span(packed).first(packed.size() - 1), 8, bytes.size(), some));
+    return packed.size();
+  };
+  EXPECT_LT(packed_size(noisy, true), 5000U * 7);  // two of eight bytes hardly change
+  EXPECT_LT(packed_size(equal, true), 1000U);
+  EXPECT_LT(packed_size(whole, false), 1000U);
 }
 
 }  // namespace

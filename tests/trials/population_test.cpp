@@ -15,7 +15,8 @@ namespace {
 
 using kinematics::ErrorEntry;
 
-// The cone in 250 blocks a turn or in finer chords (mm), measured at points of three sections, or with its datum system.
+// The cone in 250 blocks a turn or in finer chords (mm), measured at points of three sections, or
+// with its datum system.
 struct ConePopulation {
   kinematics::Machine machine;
   programs::TestPiece piece{};
