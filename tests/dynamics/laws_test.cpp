@@ -203,6 +203,82 @@ RC_GTEST_PROP(InertialLoadLaws, IsTheColumnOfTheMassMatrixInRelativeCoordinates,
   }
 }
 
+// Joints in any order and direction on both sides, bodies of any kind.
+DynamicModel any_machine() {
+  const auto share = [] { return *rc::gen::inRange(-1000, 1001) / 1000.0; };
+  const auto vector = [&] { return Vec3(share(), share(), share()); };
+  DynamicModel model;
+  std::vector<AxisLetter> letters{AxisLetter::X, AxisLetter::Y, AxisLetter::Z, AxisLetter::B,
+                                  AxisLetter::C};
+  for (std::size_t i = letters.size(); i > 1; --i) {
+    std::swap(letters[i - 1], letters[*rc::gen::inRange<std::size_t>(0, i)]);
+  }
+  model.tool_axes = *rc::gen::inRange<std::size_t>(0, letters.size() + 1);
+  model.spindle_offset = 100.0 * vector();
+  for (std::size_t k = 0; k < letters.size(); ++k) {
+    const bool first = k == 0 || k == model.tool_axes;
+    AxisModel axis;
+    axis.joint.letter = letters[k];
+    axis.joint.side = k < model.tool_axes ? 1 : -1;
+    axis.joint.direction = (vector() + Vec3(0.0, 0.0, 2.0)).normalized();
+    axis.joint.offset = 300.0 * vector();
+    axis.previous = first ? -1 : static_cast<int>(k) - 1;
+    axis.body = {200.0 + 100.0 * share(), 0.3 * vector(), Mat3::Zero()};
+    const Vec3 arm = vector();
+    axis.body.inertia = Mat3(Vec3(10.0, 12.0, 15.0).asDiagonal()) +
+                        arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose();
+    model.axes.push_back(axis);
+  }
+  return model;
+}
+
+RC_GTEST_PROP(InertialLoadLaws, IsTheChangeOfMomentumOfEveryBodyOfAnyMachine, ()) {
+  const DynamicModel model = any_machine();
+  AxisPositions start, velocity, acceleration;
+  for (const AxisModel& axis : model.axes) {
+    const auto letter = axis.joint.letter;
+    const double unit = axis.joint.rotary() ? 1e-3 : 0.1;  // rad, mm
+    start[letter] = *rc::gen::inRange(-2000, 2001) * unit;
+    velocity[letter] = *rc::gen::inRange(-3000, 3001) * unit;
+    acceleration[letter] = *rc::gen::inRange(-9000, 9001) * unit;
+  }
+  const auto at = [&](double t) {
+    AxisPositions q;
+    for (const auto letter : kinematics::kAxisLetters) {
+      q[letter] = start[letter] + velocity[letter] * t + 0.5 * acceleration[letter] * t * t;
+    }
+    return layout_at(model, q, 120.0);
+  };
+  constexpr double kStep = 1e-3;  // s
+  const auto turning = [&](double t, std::size_t joint) {
+    const auto rotation = [&](double time) {
+      return at(time).joints[joint].machine_from_moving.rotation;
+    };
+    // Central differences of the fourth order.
+    const Mat3 rate = (8.0 * (rotation(t + kStep) - rotation(t - kStep)) -
+                       (rotation(t + 2 * kStep) - rotation(t - 2 * kStep))) /
+                      (12.0 * kStep);
+    const Mat3 skew = rate * rotation(t).transpose();
+    return Vec3(skew(2, 1), skew(0, 2), skew(1, 0));
+  };
+  const VectorXd load = inertial_load(model, at(0.0), velocity, acceleration);
+  for (std::size_t k = 0; k < model.axes.size(); ++k) {
+    const std::size_t b = k + 1;
+    const auto centre = [&](double t) { return at(t).bodies[b].centre; };
+    const Vec3 faster = (16.0 * (centre(kStep) + centre(-kStep)) -
+                         (centre(2 * kStep) + centre(-2 * kStep)) - 30.0 * centre(0.0)) /
+                        (12.0 * kStep * kStep);
+    const auto momentum = [&](double t) { return Vec3(at(t).bodies[b].inertia * turning(t, k)); };
+    const Vec3 change = (8.0 * (momentum(kStep) - momentum(-kStep)) -
+                         (momentum(2 * kStep) - momentum(-2 * kStep))) /
+                        (12.0 * kStep);
+    const auto row = 6 * static_cast<Index>(b);
+    const Vec3 force = load.segment<3>(row), moment = load.segment<3>(row + 3);
+    RC_ASSERT((force + model.axes[k].body.mass * faster).norm() < 1e-4 * (1.0 + force.norm()));
+    RC_ASSERT((moment + change).norm() < 1e-4 * (1.0 + moment.norm()));
+  }
+}
+
 RC_GTEST_PROP(ModesLaws, AStifferSpringLowersNoFrequency, ()) {
   const DynamicModel model = model_named("iwf-bc");
   Structure s = structure_at(model, any_position(), 150.0);

@@ -105,19 +105,31 @@ TEST(PathDeviation, EvenTimesAddPosesOfTheSamePath) {
 struct Circularity {
   double mean_radial = 0.0, roundness = 0.0;  // um
 };
-// Of the poses of one turn, about the centre.
+// Of the poses of one turn, about the least-squares circle (to first order).
 Circularity circularity_of(const ToolPath& path, double from, double to) {
-  double low = 1e300, high = -1e300, sum = 0.0;
-  int count = 0;
+  std::vector<Eigen::Vector3d> rows;
+  std::vector<double> off;
   for (std::size_t i = 0; i < path.poses.size(); ++i) {
     if (path.times[i] < from || path.times[i] >= to) continue;
-    const double off = (path.poses[i].tip - Vec3(0, 0, 150)).head<2>().norm() - kRadius;
-    low = std::min(low, off);
-    high = std::max(high, off);
-    sum += off;
-    ++count;
+    const Eigen::Vector2d p = (path.poses[i].tip - Vec3(0, 0, 150)).head<2>();
+    rows.emplace_back(1.0, p.x() / p.norm(), p.y() / p.norm());
+    off.push_back(p.norm() - kRadius);
   }
-  return {1e3 * sum / count, 1e3 * (high - low)};
+  Mat3 normal = Mat3::Zero();
+  Vec3 right = Vec3::Zero();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    normal += rows[i] * rows[i].transpose();
+    right += off[i] * rows[i];
+  }
+  const Vec3 circle = normal.inverse() * right;
+  double low = 1e300, high = -1e300, sum = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double rest = off[i] - rows[i].dot(circle);
+    low = std::min(low, rest);
+    high = std::max(high, rest);
+    sum += off[i];
+  }
+  return {1e3 * sum / static_cast<double>(off.size()), 1e3 * (high - low)};
 }
 
 TEST(PathDeviationReference, AProgramOfCirclesIsTheHarmonicSteadyState) {
@@ -138,6 +150,26 @@ TEST(PathDeviationReference, AProgramOfCirclesIsTheHarmonicSteadyState) {
               << " um\n";
     EXPECT_NEAR(found.mean_radial, wanted["mean_radial_um"].get<double>(), 0.05);
     EXPECT_NEAR(found.roundness, wanted["roundness_lsq_um"].get<double>(), 0.05);
+  }
+}
+
+TEST(PathDeviationReference, ControlledDrivesMakeTheCircleOfTheirClosedLoop) {
+  for (const char* kind : {"no feed-forward", "velocity", "velocity and acceleration"}) {
+    const json& c = expected()["cascade"][kind];
+    DynamicModel model = model_named("iwf-bc", true);
+    for (AxisModel& axis : model.axes) {
+      axis.control->feed_forward_velocity = c["feed_forward"][0];
+      axis.control->feed_forward_acceleration = c["feed_forward"][1];
+    }
+    const auto paths = travel_circles(model, 3, {.method = PathMethod::linear}, false);
+    // Before the path stops, which samples of the velocity see a step ahead.
+    const double end = paths.commanded.times.back() - 0.3 - 0.1;
+    const double turn = 2.0 * std::numbers::pi * kRadius / kFeed * 60.0;
+    const auto found = circularity_of(paths.deviating, end - turn, end);
+    std::cout << kind << ": mean radial " << found.mean_radial << " um, roundness "
+              << found.roundness << " um\n";
+    EXPECT_NEAR(found.mean_radial, c["circle"]["mean_radial_um"].get<double>(), 0.05) << kind;
+    EXPECT_NEAR(found.roundness, c["circle"]["roundness_lsq_um"].get<double>(), 0.05) << kind;
   }
 }
 
