@@ -12,6 +12,7 @@
 #include "app/study/place_in_file.hpp"
 #include "core/units.hpp"
 #include "kinematics/path/approach_direction.hpp"
+#include "metrology/characteristic/datum_system.hpp"
 #include "metrology/cmm.hpp"
 #include "metrology/plan/strategy.hpp"
 #include "studies/engine/linear_engine.hpp"
@@ -160,7 +161,7 @@ class PieceModel final : public StudyModel {
       columns.push_back(std::move(one));
     }
     auto made =
-        trials::Population::make(job.machine, job.piece, commanded_,
+        trials::Population::make(job.machine, asked_of_population(), commanded_,
                                  trials::PopulationLaws::of(factors_.fixed(), std::move(columns)),
                                  {.path_bound = job.path_bound, .refuse_whole = true});
     if (made) {
@@ -168,6 +169,23 @@ class PieceModel final : public StudyModel {
     } else {
       against_following_ = joined(made.error());
     }
+  }
+
+  // The piece with the features of the plan that a characteristic or a datum needs. Kept points are
+  // those of all; noise belongs to the number of a feature.
+  programs::TestPiece asked_of_population() const {
+    programs::TestPiece piece = study_.job->piece;
+    metrology::InspectionPlan& plan = piece.plan;
+    if (study_.keep_points || study_.measurement.noise || !plan.frames.empty()) return piece;
+    const metrology::InspectionPlan whole = plan;
+    std::erase_if(plan.features, [&](const metrology::PlannedFeature& feature) {
+      const auto names_it = [&](const metrology::PlannedCharacteristic& c) {
+        return std::ranges::find(c.features, feature.name) != c.features.end();
+      };
+      return !metrology::is_datum_feature(whole, feature) &&
+             std::ranges::none_of(whole.characteristics, names_it);
+    });
+    return piece;
   }
 
   std::vector<DrawOutcome> followed(std::span<const DrawnMachine> draws,

@@ -147,6 +147,18 @@ TEST(Population, FollowsPointsBesideThePassesInAndOut) {
   expect_equal_to_whole_trials(cone, proof::law_count(20U, 1U), 1.0);
 }
 
+// Plane and cylinder of the datum system are the blank's own, the groove's wall was cut.
+TEST(Population, FollowsTheDatumSystemOfTheBlank) {
+  const auto cone = ConePopulation::of(12, true, {}, 1e-4);
+  const Population population = cone.population();
+  EXPECT_TRUE(population.reasons().empty());
+  std::size_t whole = 0;
+  const auto draws = cone.draws(20);
+  for (const PopulationMember& member : population.evaluate(draws)) whole += member.whole;
+  EXPECT_EQ(whole, 0U);
+  expect_equal_to_whole_trials(cone, proof::law_count(20U, 2U), 1.0);
+}
+
 TEST(Population, SweepingNearByAsksHardlyAPointOfTheWholeProgram) {
   const auto cone = ConePopulation::of(40, false);
   const Population population = cone.population();

@@ -41,6 +41,21 @@ Vec3 lane_of(const LaneVec3& v, std::size_t lane) {
   return {v.x.of[lane], v.y.of[lane], v.z.of[lane]};
 }
 
+// The blank before any cut.
+class BlankProbe {
+ public:
+  explicit BlankProbe(const stock::Workpiece& workpiece) : workpiece_(workpiece) {}
+  [[nodiscard]] std::optional<metrology::Touch> touch(const Vec3& start, const UnitVec3& direction,
+                                                      double length_mm) const {
+    const auto surface = workpiece_.first_surface({start, direction}, {0.0, length_mm}, 0);
+    if (!surface) return std::nullopt;
+    return metrology::Touch{surface->point, surface->normal, {}};
+  }
+
+ private:
+  const stock::Workpiece& workpiece_;
+};
+
 }  // namespace
 
 DrawBlock::DrawBlock(const PopulationCommon& common, std::span<const Weights> draws,
@@ -66,6 +81,7 @@ void DrawBlock::evaluate(std::span<const metrology::CmmModel> cmms, bool travels
     lane.scale = scale_of(common_, draws_[i]);
     lane.cmm.emplace(cmms.empty() ? metrology::CmmModel{} : cmms[i]);
     lane.travels.resize(plan.features.size());
+    lane.probed_in.resize(plan.features.size());
     lane.features.resize(plan.features.size());
   }
   align();
@@ -85,10 +101,26 @@ void DrawBlock::evaluate(std::span<const metrology::CmmModel> cmms, bool travels
     lane.member->values.assign(values.begin(), values.end());
     if (!travels) continue;
     lane.member->workpiece_from_datum = lane.workpiece_from_datum;
-    for (const auto& feature : lane.travels) {
-      lane.member->travels.insert(lane.member->travels.end(), feature.begin(), feature.end());
+    lane.member->travels = all_travels(lane);
+  }
+}
+
+std::vector<double> DrawBlock::all_travels(const Lane& lane) const {
+  const double ball = 0.5 * common_.piece.plan.probe.ball_diameter;
+  const Pose& frame = lane.workpiece_from_datum;
+  std::vector<double> all;
+  for (std::size_t f = 0; f < lane.travels.size(); ++f) {
+    const Pose& before = lane.probed_in[f];
+    for (std::size_t i = 0; i < lane.travels[f].size(); ++i) {
+      const metrology::PlannedPoint& planned = common_.planned[f][i];
+      const Vec3 shift = before.point(planned.point) - frame.point(planned.point);
+      const Vec3 centre = shift + (lane.travels[f][i] + ball) * before.direction(planned.normal);
+      const bool is_datum = is_datum_feature(common_.piece.plan, common_.piece.plan.features[f]);
+      all.push_back(is_datum ? centre.dot(frame.direction(planned.normal)) - ball
+                             : lane.travels[f][i]);
     }
   }
+  return all;
 }
 
 std::vector<FittedFeature> DrawBlock::datums_of(const Lane& lane) const {
@@ -163,7 +195,10 @@ void DrawBlock::probe(std::size_t feature) {
     break;
   }
   find_contacts(windows, plan.tables, scratch_.poses, frame, scale, scratch_.contacts);
-  for (Lane& lane : lanes_) lane.travels[feature].resize(last - first);
+  for (Lane& lane : lanes_) {
+    lane.travels[feature].resize(last - first);
+    if (!lane.is_done) lane.probed_in[feature] = lane.workpiece_from_datum;
+  }
   std::size_t followed = 0;
   for (std::uint32_t p = first; p < last; ++p) {
     const LaneContact* contact =
@@ -196,6 +231,12 @@ void DrawBlock::probe_point(std::size_t feature, std::size_t index, std::size_t 
   }
   const FollowedPoint& point = common_.plan.points[common_.plan.first_point[feature] + index];
   const BallApproach approach = approach_of(lane, feature, index);
+  if (point.room_on_blank) {
+    if (const auto on_blank = travel_on_blank(point, lane.scale, approach)) {
+      travel = *on_blank;
+      return;
+    }
+  }
   if (contact != nullptr &&
       contact->doubt[lane_index] == static_cast<std::uint32_t>(Doubt::edges)) {
     if (const auto on_edge = travel_on_edge(point, lane_index, approach)) {
@@ -267,6 +308,16 @@ std::optional<double> DrawBlock::travel_on_edge(const FollowedPoint& point, std:
       {window, tables, std::span(pieces).first(window.pieces), point.origin,
        poses_of(point.origin.node, lane), lanes_[lane].scale},
       {approach.target + approach.ball_radius * normal, normal, approach.ball_radius});
+}
+
+// A cut takes material away, so that the ball rests on the blank unless its contact is cut.
+std::optional<double> DrawBlock::travel_on_blank(const FollowedPoint& point, double scale,
+                                                 const BallApproach& approach) const {
+  const BallContact met = touch_with_ball(BlankProbe(*common_.middle.workpiece), approach);
+  if (met.state != ContactState::contact) return std::nullopt;
+  const double moved = (met.touch.point - point.origin.touched).norm();
+  if (!(moved + scale * common_.plan.largest_motion < *point.room_on_blank)) return std::nullopt;
+  return (met.centre - approach.target).dot(approach.outward.vec()) - approach.ball_radius;
 }
 
 std::optional<double> DrawBlock::local_travel(const FollowedPoint& point, std::size_t lane,

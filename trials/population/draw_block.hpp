@@ -54,7 +54,8 @@ class DrawBlock {
     Pose workpiece_from_datum{};
     double scale = 0.0;
     std::optional<metrology::CmmErrors> cmm{};
-    std::vector<std::vector<double>> travels{};                       // by feature
+    std::vector<std::vector<double>> travels{};  // by feature
+    std::vector<Pose> probed_in{};               // by feature: the frame in which it was approached
     std::vector<std::optional<metrology::FittedFeature>> features{};  // by feature
     std::vector<bool> has_surroundings{};                             // by node: poses are known
     std::shared_ptr<const stock::Workpiece> whole{};                  // if it had to be cut
@@ -65,9 +66,13 @@ class DrawBlock {
                    const LaneContact* contact);
   [[nodiscard]] std::optional<double> travel_on_edge(const FollowedPoint& point, std::size_t lane,
                                                      const metrology::BallApproach& approach) const;
+  [[nodiscard]] std::optional<double> travel_on_blank(
+      const FollowedPoint& point, double scale, const metrology::BallApproach& approach) const;
   [[nodiscard]] std::optional<double> local_travel(const FollowedPoint& point, std::size_t lane,
                                                    const metrology::BallApproach& approach);
   void fit(std::size_t feature, Lane& lane);
+  // Of all points in the datum system at last: datum features were approached before it was known.
+  [[nodiscard]] std::vector<double> all_travels(const Lane& lane) const;
   void align();
   void whole_trial(std::size_t lane);
   [[nodiscard]] metrology::BallApproach approach_of(const Lane& lane, std::size_t feature,

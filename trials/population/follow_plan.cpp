@@ -39,7 +39,8 @@ constexpr double kDriftDeviations = 3.5;
 
 // A contact of the middle machine as its trial found it.
 struct Found {
-  Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();  // planned, in the workpiece
+  Vec3 planned_point = Vec3::Zero(), planned_normal = Vec3::UnitZ();
+  Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();  // the same, in the workpiece
   Vec3 touched = Vec3::Zero();
   std::uint32_t block = 0;
   int tool = 0;
@@ -109,10 +110,15 @@ class Planner {
         std::optional<Found> contact;
         const auto& provenance = touches[i].provenance;
         if (!provenance || !provenance->segment) {
-          point.why_not = "the blank's own surface is probed";
+          const double room = bounds_.room(touches[i].point);
+          point.origin.touched = touches[i].point;
+          if (room > plan_.largest_motion) point.room_on_blank = room;
+          if (!point.room_on_blank) point.why_not = "the blank is probed too near a cut";
         } else {
           const std::uint32_t block = path_.segments[*provenance->segment].block;
-          contact = Found{frame.point(planned[i].point),
+          contact = Found{planned[i].point,
+                          planned[i].normal,
+                          frame.point(planned[i].point),
                           frame.direction(planned[i].normal),
                           touches[i].point,
                           block,
@@ -360,19 +366,12 @@ class Planner {
     window.axis = {pose.axis.x(), pose.axis.y(), pose.axis.z()};
     window.touched = {touched.x(), touched.y(), touched.z()};
     window.travel = travel;
-    const auto planned = planned_point(index);
-    window.point = {planned.point.x(), planned.point.y(), planned.point.z()};
-    window.normal = {planned.normal.x(), planned.normal.y(), planned.normal.z()};
+    const Vec3 &planned = contact.planned_point, &normal = contact.planned_normal;
+    window.point = {planned.x(), planned.y(), planned.z()};
+    window.normal = {normal.x(), normal.y(), normal.z()};
     point.is_followed = true;
     point.window = static_cast<std::uint32_t>(plan_.windows.size());
     plan_.windows.push_back(window);
-  }
-
-  [[nodiscard]] metrology::PlannedPoint planned_point(std::size_t index) const {
-    const auto after = std::ranges::upper_bound(plan_.first_point, index);
-    const auto feature = static_cast<std::size_t>(after - plan_.first_point.begin()) - 1;
-    return metrology::planned_points(
-        piece_.plan.features[feature])[index - plan_.first_point[feature]];
   }
 
   // Half way between places errors are what they are in the middle, near enough for bounds.

@@ -8,6 +8,7 @@
 //            the ends of the window do not tell (the second differences along the path), of other
 //            passes all of it, of what is farther off twice the largest motion of any point
 // Units    : mm, rad; frame: workpiece
+//            The blank's own surface stays where it is: a contact on it needs no window
 // Errors   : points that cannot be followed say why
 // Accuracy : bounds to first order in the errors, with 2 % for what is of second order: 1e-4 of a
 //            motion for errors of 100 urad. Between the places at which a piece is looked at,
@@ -16,6 +17,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +46,9 @@ struct FollowedPoint {
   Closeness others{};  // of what is not in them
   int tool = 0;
   ContactOrigin origin{};
+  // mm: of a contact on the blank's own surface, how far cutters keep from it. It is met there as
+  // long as they do, by any machine.
+  std::optional<double> room_on_blank{};
 };
 
 struct FollowPlan {

@@ -36,7 +36,7 @@ void count(std::vector<Population::Reason>& reasons, const std::string& why) {
 std::optional<Diagnostic> asked_whole(const FollowPlan& plan) {
   std::vector<Population::Reason> reasons;
   for (const FollowedPoint& point : plan.points) {
-    if (!point.is_followed && point.surroundings.empty()) count(reasons, point.why_not);
+    if (!point.why_not.empty() && point.surroundings.empty()) count(reasons, point.why_not);
   }
   if (reasons.empty()) return std::nullopt;
   std::string text;
@@ -135,7 +135,7 @@ Result<std::vector<double>> Population::evaluate_moved(std::span<const double> m
 std::vector<Population::Reason> Population::reasons() const {
   std::vector<Reason> reasons;
   for (const FollowedPoint& point : state_->common.plan.points) {
-    if (!point.is_followed) count(reasons, point.why_not);
+    if (!point.why_not.empty()) count(reasons, point.why_not);
   }
   return reasons;
 }

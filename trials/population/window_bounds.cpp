@@ -18,6 +18,8 @@ using kinematics::ToolPose;
 constexpr double kSecondOrder = 1.02;
 // Machines are followed up to this many times the limits of their laws, by distances at least.
 constexpr double kMostScale = 2.0;
+// Twice, for both move; beyond so many of the largest motions nothing matters.
+constexpr double kFarOff = 2.0 * kMostScale * 2.0;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // Of the body at a pose from the point, and the way out of the body there.
@@ -219,7 +221,7 @@ void WindowBounds::take_segment(Closeness& closeness, const ContactPlace& at,
   const ToolPath& path = workpiece_.removed().path();
   const cutter::Body& body = workpiece_.removed().tool(tool).body();
   const cutter::SegmentMotion motion(path, segment, body.reach());
-  const double enough = 2.0 * kMostScale * 2.0 * largest_;
+  const double enough = kFarOff * largest_;
   // Both ends of a part: how far off, and how much nearer it comes.
   struct Moment {
     double t = 0.0;
@@ -278,6 +280,23 @@ void WindowBounds::take_segment(Closeness& closeness, const ContactPlace& at,
   }
 }
 
+double WindowBounds::room(const Vec3& point) const {
+  const ToolPath& path = workpiece_.removed().path();
+  double least = kFarOff * largest_;
+  const Vec3 around = Vec3::Constant(least);
+  const Box near{point - around, point + around};
+  for (std::uint32_t s = 0; s < path.segments.size(); ++s) {
+    if (!overlap(workpiece_.removed().box(s), near)) continue;
+    const kinematics::PathSegment& segment = path.segments[s];
+    const cutter::Body& body = workpiece_.removed().tool(path.blocks[segment.block].tool).body();
+    const cutter::SegmentMotion motion(path, segment, body.reach());
+    const BodyDistance a = from_body(body, path.from(segment), point);
+    const BodyDistance b = from_body(body, path.to(segment), point);
+    least = std::min(least, LeastDistance(body, motion, point).find({0.0, a}, {1.0, b}, least));
+  }
+  return least;
+}
+
 // A ball of that radius, by 26 directions.
 bool WindowBounds::is_inside_blank(const Vec3& point, double margin) const {
   for (int x = -1; x <= 1; ++x) {
@@ -303,7 +322,7 @@ bool is_in(std::span<const BlockRange> ranges, std::uint32_t block) {
 Closeness WindowBounds::others(const ContactPlace& at, std::span<const BlockRange> but, int tool,
                                const ApproachLine& line) {
   const ToolPath& path = workpiece_.removed().path();
-  const double far = 2.0 * kMostScale * 2.0 * largest_;
+  const double far = kFarOff * largest_;
   Closeness closeness{2.0 * largest_ / far, 1.0 / far, 0.0};
   // The cutter itself clears the way from the start: the point of the ball is in it then, and seen
   // from this cutter moves along the surface only, but for the turn of the line of approach (mm).

@@ -68,6 +68,8 @@ class WindowBounds {
   [[nodiscard]] std::vector<Vec3> motions(const kinematics::AxisState& state, int tool,
                                           const kinematics::ToolPose& pose,
                                           const Vec3& point) const;
+  // How far the cutters keep from a point on the blank, or more than matters to any machine.
+  [[nodiscard]] double room(const Vec3& point) const;
   // Of the contact along its surface, over the population.
   [[nodiscard]] double drift_deviation(const ContactPlace& at) const;
   // Of the places beyond an end of the window, along the path.
