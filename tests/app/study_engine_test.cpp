@@ -77,6 +77,8 @@ TEST(StudyEngineLaws, NoWholeMachineIsFartherOffThanTheBoundOfItsStudy) {
 // As above, but for errors ten times larger.
 TEST(StudyEngine, TakesWholeTrialsOfErrorsTenTimesLarger) {
   StudyFile study = fine_cone("proposed", 'R', {{"*:reversal", 0.0}});
+  auto& strategy = study.job->piece.plan.features.front().strategy;
+  std::get<metrology::SectionStrategy>(strategy).points_per_section = 36;
   for (studies::ScaleRule& rule : study.scale) rule.factor *= 10.0;
   study.scale.insert(study.scale.begin(), {"*", 10.0});
   const auto made = make_model(study);
