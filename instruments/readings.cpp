@@ -24,13 +24,15 @@ std::vector<Vec3> displacements(const kinematics::ForwardChain& actual,
 }
 
 std::vector<double> bar_readings(const kinematics::ForwardChain& actual, const MotionTest& test,
-                                 const SetupErrors& setup) {
+                                 const SetupErrors& setup, std::span<const Vec3> moved) {
   const Vec3 table_ball = test.table_ball + setup.table_ball;
   const double length = test.bar + setup.length;
   std::vector<double> readings;
   readings.reserve(test.poses.size());
-  for (const TestPose& pose : test.poses) {
-    readings.push_back((spindle_ball(actual, pose, setup) - table_ball).norm() - length);
+  for (std::size_t i = 0; i < test.poses.size(); ++i) {
+    Vec3 ball = spindle_ball(actual, test.poses[i], setup);
+    if (!moved.empty()) ball += moved[i];
+    readings.push_back((ball - table_ball).norm() - length);
   }
   return readings;
 }

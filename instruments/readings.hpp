@@ -30,8 +30,10 @@ namespace frustum::instruments {
                                               std::span<const TestPose> poses,
                                               const SetupErrors& setup);
 
-// The chain must have the tool length of the test.
+// The chain must have the tool length of the test. `moved`: what else moves the tip in each pose,
+// for example masses and springs; empty for nothing.
 [[nodiscard]] std::vector<double> bar_readings(const kinematics::ForwardChain& actual,
-                                               const MotionTest& test, const SetupErrors& setup);
+                                               const MotionTest& test, const SetupErrors& setup,
+                                               std::span<const Vec3> moved = {});
 
 }  // namespace frustum::instruments

@@ -95,6 +95,9 @@ void add_circle(Command& tests) {
                  "0,30,60: degrees (default: 3600 midpoints of a full turn)");
   command.option("--feed", words->feed,
                  "mm/min: the axes lag behind by their servo gains (default: they follow at once)");
+  command.option("--dynamics", words->dynamics,
+                 "quasi_static or linear: instead of that lag, masses and springs of the machine "
+                 "move the tip (default: off)");
   command.footer(
       "Example: frustum motion circle --machine iwf-bc --plane XY --length 150 --center 0,0,150 "
       "--error EC0Y=30urad");

@@ -14,6 +14,7 @@ struct CircleWords : MotionWords {
   std::string centre{};
   std::string angles{};
   std::optional<double> feed{};
+  std::string dynamics = "off";  // or quasi_static, linear: with a feed
 };
 
 [[nodiscard]] Result<MotionAnswer> circle_answer(const CircleWords& words);

@@ -78,6 +78,7 @@ CircleWords read_circle(const TomlTable& root) {
   words.centre = list_at(root, "center");
   words.angles = list_or(root, "angles");
   if (root.has("feed")) words.feed = root.number("feed", Bound::positive);
+  words.dynamics = root.text_or("dynamics", words.dynamics);
   return words;
 }
 
@@ -161,6 +162,7 @@ TestWriter written(const CircleWords& words) {
   out.list("center", words.centre);
   out.list("angles", words.angles);
   if (words.feed) out.number("feed", *words.feed);
+  if (words.dynamics != "off") out.text("dynamics", words.dynamics);
   return out;
 }
 
