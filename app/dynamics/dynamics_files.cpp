@@ -161,7 +161,7 @@ std::vector<std::string> positions_of(const dynamics::MapAxis& axis) {
   return names;
 }
 
-report::HeatMap heat_map_of(const MapRequest& request, const dynamics::WorkspaceMap& map) {
+report::HeatMap heat_map_of(const WorkspaceMapRequest& request, const dynamics::WorkspaceMap& map) {
   report::HeatMap drawing{request.title,
                           std::string(1, to_char(request.rows.letter)),
                           std::string(1, to_char(request.columns.letter)),
@@ -174,7 +174,7 @@ report::HeatMap heat_map_of(const MapRequest& request, const dynamics::Workspace
   return drawing;
 }
 
-std::string map_csv(const MapRequest& request, const dynamics::WorkspaceMap& map) {
+std::string map_csv(const WorkspaceMapRequest& request, const dynamics::WorkspaceMap& map) {
   const auto rows = positions_of(request.rows), columns = positions_of(request.columns);
   std::string text = fmt::format("{},{},{}\n", to_char(request.rows.letter),
                                  to_char(request.columns.letter), request.title);

@@ -129,7 +129,7 @@ ordered_json map_axis_json(const dynamics::MapAxis& axis) {
   return {std::string(1, to_char(axis.letter)), axis.from * unit, axis.to * unit, axis.count};
 }
 
-ordered_json map_json(const MapRequest& request, const dynamics::WorkspaceMap& map) {
+ordered_json map_json(const WorkspaceMapRequest& request, const dynamics::WorkspaceMap& map) {
   return {{"rows", map_axis_json(request.rows)},
           {"columns", map_axis_json(request.columns)},
           {"quantity", request.title},

@@ -171,7 +171,7 @@ Result<NamedQuantity> read_quantity(const DynamicModel& model, const std::string
       fmt::format("Hx/x (tip x for acceleration of X), f1 to f{}, Gxx (static compliance)", modes));
 }
 
-Result<MapRequest> read_map(const DynamicModel& model, const DynamicsWords& words) {
+Result<WorkspaceMapRequest> read_map(const DynamicModel& model, const DynamicsWords& words) {
   const auto parts = parts_of(words.map, ',');
   if (parts.size() != 2) {
     return error("number-count"_id, fmt::format("--map {}: expected two axes", words.map),
@@ -186,7 +186,7 @@ Result<MapRequest> read_map(const DynamicModel& model, const DynamicsWords& word
   }
   const auto quantity = read_quantity(model, words.quantity);
   if (!quantity) return quantity.error();
-  return MapRequest{*rows, *columns, quantity->quantity, quantity->title};
+  return WorkspaceMapRequest{*rows, *columns, quantity->quantity, quantity->title};
 }
 
 Result<double> positive(const std::optional<double>& value, const char* option, const char* unit) {

@@ -37,7 +37,7 @@ struct DynamicsWords {
 struct RatesRequest {
   kinematics::AxisPositions velocity{}, acceleration{};  // mm, rad, s
 };
-struct MapRequest {
+struct WorkspaceMapRequest {
   dynamics::MapAxis rows{}, columns{};
   dynamics::MapQuantity quantity{};
   std::string title{};  // "|Hx/X..| um/gn"
@@ -56,7 +56,7 @@ struct DynamicsRequest {
   double tool_length = 0.0;  // mm
   std::vector<double> frequencies{};
   std::optional<RatesRequest> rates{};
-  std::optional<MapRequest> map{};
+  std::optional<WorkspaceMapRequest> map{};
   std::optional<CircleRequest> circle{};
   std::optional<MoveRequest> move{};
 };

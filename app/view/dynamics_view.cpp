@@ -134,7 +134,7 @@ std::string vectors_text(const std::vector<std::pair<const char*, Vec3>>& vector
   return table.text();
 }
 
-std::string map_text(const MapRequest& request, const dynamics::WorkspaceMap& map) {
+std::string map_text(const WorkspaceMapRequest& request, const dynamics::WorkspaceMap& map) {
   TextTable table({request.title, "min", "Q1", "median", "Q3", "max"});
   table.row(
       {fmt::format("over {} and {}", to_char(request.rows.letter), to_char(request.columns.letter)),
