@@ -2,7 +2,7 @@
 //
 // Model    : reading + noise of one standard deviation, rounded to the resolution
 // Units    : mm
-// Shape    : as many as readings; `trace` tells the runs of a test apart
+// Shape    : as many as readings; `trace` separates the runs of a test
 // Errors   : none
 // Accuracy : noise by counter (core/random.hpp): equal for any order of evaluation
 // Source   : JCGM 100:2008, 4.3

@@ -1,4 +1,4 @@
-// What a circle of two linear axes is made of: the terms that a ball bar tells of, by least
+// What a circle of two linear axes is made of: the terms that a ball bar reports, by least
 // squares.
 //
 // Model    : both directions together, w = +1 ccw, -1 cw, L the nominal length:
@@ -47,7 +47,7 @@ struct Signature {
   // residuals show. Neighbours of a real trace are not independent: these are lower bounds.
   std::array<double, kSignatureTerms> sd_per_noise{};
   std::array<double, kSignatureTerms> sd{};
-  bool both_senses = true;  // else servo is not told from square, and is 0
+  bool both_senses = true;  // else servo is not separated from square, and is 0
   double residual_rms = 0.0;
 
   [[nodiscard]] double operator[](SignatureTerm term) const {
@@ -57,8 +57,8 @@ struct Signature {
 
 [[nodiscard]] Result<Signature> signature(std::span<const CircleTrace> traces, double length);
 
-// Whether a trace tells each term: with one reading a degree its standard deviation is below the
-// noise of a single reading. A quadrant tells backlash and servo mismatch only.
+// Whether each term can be identified from a trace: with one reading a degree its standard
+// deviation is below the noise of a single reading. A quadrant identifies backlash and servo mismatch only.
 [[nodiscard]] std::array<bool, kSignatureTerms> told_terms(std::span<const CircleTrace> traces,
                                                            const Signature& signature,
                                                            double length);

@@ -106,11 +106,9 @@ int run_dynamics(const DynamicsOptions& options) {
   }
   const auto measured = read_measured(options, found->model, *request);
   if (!measured) return refuse(measured.error(), options);
-  const auto text_by = [&](auto writer) {
-    return writer(found->machine, found->model, *request, *answer, options.modes, compared,
-                  measured->identified);
-  };
-  const std::string document = text_by(dynamics_json) + '\n';
+  const DynamicsReport report{found->machine, found->model,        *request, *answer, options.modes,
+                              compared,       measured->identified};
+  const std::string document = dynamics_json(report) + '\n';
   if (files) {
     add_dynamics_files(*files, found->machine, found->model, *request, *answer,
                        measured->responses);
@@ -120,7 +118,7 @@ int run_dynamics(const DynamicsOptions& options) {
   if (options.json) {
     std::cout << document;
   } else if (!options.quiet) {
-    std::cout << text_by(dynamics_text);
+    std::cout << dynamics_text(report);
   }
   return kDone;
 }

@@ -208,10 +208,8 @@ ordered_json identified_json(const dynamics::Identification& identified) {
 
 }  // namespace
 
-std::string dynamics_json(const kinematics::Machine& machine, const DynamicModel& model,
-                          const DynamicsRequest& request, const DynamicsAnswer& answer,
-                          std::size_t modes, const std::optional<ComparedMachine>& compared,
-                          const std::optional<dynamics::Identification>& identified) {
+std::string dynamics_json(const DynamicsReport& report) {
+  const auto& [machine, model, request, answer, modes, compared, identified] = report;
   ordered_json doc{{"schema", "frustum/dynamics/1"},
                    {"machine", machine.name()},
                    {"structure", machine.structure()},

@@ -18,13 +18,17 @@ struct ComparedMachine {
   std::vector<ComparedRow> rows{};
 };
 
-// `modes`: how many modes and poles are listed at most. Without another machine, or measured
-// responses, nothing is compared, nothing identified.
-[[nodiscard]] std::string dynamics_json(const kinematics::Machine& machine,
-                                        const dynamics::DynamicModel& model,
-                                        const DynamicsRequest& request,
-                                        const DynamicsAnswer& answer, std::size_t modes,
-                                        const std::optional<ComparedMachine>& compared,
-                                        const std::optional<dynamics::Identification>& identified);
+// Without another machine, or measured responses, nothing is compared, nothing identified.
+struct DynamicsReport {
+  const kinematics::Machine& machine;
+  const dynamics::DynamicModel& model;
+  const DynamicsRequest& request;
+  const DynamicsAnswer& answer;
+  std::size_t modes = 0;  // and poles: that many are listed at most
+  const std::optional<ComparedMachine>& compared;
+  const std::optional<dynamics::Identification>& identified;
+};
+
+[[nodiscard]] std::string dynamics_json(const DynamicsReport& report);
 
 }  // namespace frustum::app

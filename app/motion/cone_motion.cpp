@@ -4,10 +4,7 @@
 
 #include "app/motion/turn_report.hpp"
 #include "core/constants.hpp"
-#include "instruments/approach.hpp"
 #include "instruments/cone_test.hpp"
-#include "instruments/reach.hpp"
-#include "instruments/readings.hpp"
 #include "instruments/sample_angles.hpp"
 
 namespace frustum::app {
@@ -44,15 +41,9 @@ Result<MotionAnswer> cone_answer(const ConeMotionWords& words) {
   if (!cone) return cone.error();
   const auto test = cone_test(setup->machine, *cone);
   if (!test) return test.error();
-  const kinematics::ForwardChain actual(setup->machine, setup->errors, setup->tool_length);
-  const auto readings = instruments::shown(
-      setup->instrument,
-      instruments::bar_readings(actual, instruments::with_approach(*test, setup->errors),
-                                setup->setup),
-      0);
-  if (auto problem = instruments::beyond_stroke(*test, readings, words.stroke, "phi")) {
-    return *std::move(problem);
-  }
+  const auto shown = shown_by_bar(*setup, *test, words.stroke, "phi");
+  if (!shown) return shown.error();
+  const std::vector<double>& readings = *shown;
   MotionAnswer answer = answer_of("cone", fmt::format("Cone path, bar {}", words.sense), *setup);
   answer.document["sense"] = words.sense;
   answer.document["cone_angle_deg"] = words.cone_angle;

@@ -4,6 +4,10 @@
 
 #include <sstream>
 
+#include "instruments/approach.hpp"
+#include "instruments/reach.hpp"
+#include "instruments/readings.hpp"
+
 namespace frustum::app {
 
 using instruments::TestPose;
@@ -82,6 +86,19 @@ MotionAnswer answer_of(const std::string& test, const std::string& title,
         {"Noise", fmt::format("{:g} µm, seed {}", instrument.noise * kUmPerMm, instrument.seed)});
   }
   return answer;
+}
+
+Result<std::vector<double>> shown_by_bar(const MotionSetup& setup,
+                                         const instruments::MotionTest& test, double stroke,
+                                         const std::string& parameter) {
+  const kinematics::ForwardChain actual(setup.machine, setup.errors, setup.tool_length);
+  const auto run = instruments::with_approach(test, setup.errors);
+  auto readings =
+      instruments::shown(setup.instrument, instruments::bar_readings(actual, run, setup.setup), 0);
+  if (auto problem = instruments::beyond_stroke(test, readings, stroke, parameter)) {
+    return *std::move(problem);
+  }
+  return readings;
 }
 
 void add_told(MotionAnswer& answer, const instruments::Told& told) {

@@ -38,6 +38,12 @@ struct MotionAnswer {
                                const std::vector<instruments::TestPose>& poses);
 [[nodiscard]] std::vector<double> parameters_of(const instruments::MotionTest& test);
 
+// What the bar of a test of one run shows of the actual machine. Refused: a deviation beyond its
+// stroke (mm), with where in the run it is, a value of `parameter`.
+[[nodiscard]] Result<std::vector<double>> shown_by_bar(const MotionSetup& setup,
+                                                       const instruments::MotionTest& test,
+                                                       double stroke, const std::string& parameter);
+
 // Puts `told` and `not_told` into the document and a line into the text.
 void add_told(MotionAnswer& answer, const instruments::Told& told);
 

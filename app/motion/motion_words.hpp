@@ -28,7 +28,7 @@ struct MotionWords : AnswerOptions {
   std::string setup{};              // "ball=10,-5,3;table_ball=6,-4,2;length=2"
   double tool_length = 0.0;
   std::string at{};         // held axes: "A=-90"
-  bool ball_known = false;  // the spindle ball's offset, for what is told
+  bool ball_known = false;  // the spindle ball's offset, for what is identified
   std::string noise{}, resolution{};
   std::uint64_t seed = 1;
   double stroke = 1.0;  // of a bar, to either side, mm

@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include "app/motion/turn_report.hpp"
-#include "instruments/approach.hpp"
-#include "instruments/reach.hpp"
-#include "instruments/readings.hpp"
 #include "instruments/rotary_test.hpp"
 #include "instruments/sample_angles.hpp"
 
@@ -69,15 +66,9 @@ Result<MotionAnswer> rotary_answer(const RotaryWords& words) {
   if (!rotary) return rotary.error();
   const auto test = rotary_test(setup->machine, *rotary);
   if (!test) return test.error();
-  const kinematics::ForwardChain actual(setup->machine, setup->errors, setup->tool_length);
-  const auto readings = instruments::shown(
-      setup->instrument,
-      instruments::bar_readings(actual, instruments::with_approach(*test, setup->errors),
-                                setup->setup),
-      0);
-  if (auto problem = instruments::beyond_stroke(*test, readings, words.stroke, words.axis)) {
-    return *std::move(problem);
-  }
+  const auto shown = shown_by_bar(*setup, *test, words.stroke, words.axis);
+  if (!shown) return shown.error();
+  const std::vector<double>& readings = *shown;
   MotionAnswer answer = answer_of("rotary",
                                   fmt::format("Axis {}, {} bar held on the {}", words.axis,
                                               words.direction, name_of(rotary->hold)),

@@ -172,10 +172,8 @@ std::string identified_text(const dynamics::Identification& identified) {
 
 }  // namespace
 
-std::string dynamics_text(const kinematics::Machine& machine, const DynamicModel& model,
-                          const DynamicsRequest& request, const DynamicsAnswer& answer,
-                          std::size_t modes, const std::optional<ComparedMachine>& compared,
-                          const std::optional<dynamics::Identification>& identified) {
+std::string dynamics_text(const DynamicsReport& report) {
+  const auto& [machine, model, request, answer, modes, compared, identified] = report;
   std::string text = fmt::format("{} at {}, tool {:g} mm\n\n", machine.title(),
                                  axes_text(model, request.axes), request.tool_length);
   const auto add = [&](const std::string& part) { text += part + '\n'; };

@@ -8,11 +8,6 @@
 
 namespace frustum::app {
 
-[[nodiscard]] std::string dynamics_text(const kinematics::Machine& machine,
-                                        const dynamics::DynamicModel& model,
-                                        const DynamicsRequest& request,
-                                        const DynamicsAnswer& answer, std::size_t modes,
-                                        const std::optional<ComparedMachine>& compared,
-                                        const std::optional<dynamics::Identification>& identified);
+[[nodiscard]] std::string dynamics_text(const DynamicsReport& report);
 
 }  // namespace frustum::app

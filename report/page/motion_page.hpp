@@ -1,4 +1,4 @@
-// The page of a motion test: traces, values, contributions, and what the test tells.
+// The page of a motion test: traces, values, contributions, and what the test identifies.
 //
 // Everything is HTML and SVG, and opens without a network or a script.
 // Units: as the texts say. Errors: none.

@@ -134,16 +134,19 @@ TEST(Population, SweepsNearByWhatAWholeTrialMakes) {
   expect_equal_to_whole_trials(ConePopulation::of(40, false), 1, 1.0);
 }
 
+std::size_t points_asked_whole(const Population& population, const std::vector<Weights>& draws) {
+  std::size_t whole = 0;
+  for (const PopulationMember& member : population.evaluate(draws)) whole += member.whole;
+  return whole;
+}
+
 // Half a degree beside them the cutter comes and goes along straight tangents, which are microns
 // off the cone in the middle of segments of 18 mm.
 TEST(Population, FollowsPointsBesideThePassesInAndOut) {
   const auto cone = ConePopulation::of(360, false, {}, 1e-4);
   const Population population = cone.population();
   EXPECT_TRUE(population.reasons().empty());
-  std::size_t whole = 0;
-  const auto draws = cone.draws(8);
-  for (const PopulationMember& member : population.evaluate(draws)) whole += member.whole;
-  EXPECT_EQ(whole, 0U);
+  EXPECT_EQ(points_asked_whole(population, cone.draws(8)), 0U);
   expect_equal_to_whole_trials(cone, proof::law_count(20U, 1U), 1.0);
 }
 
@@ -152,10 +155,7 @@ TEST(Population, FollowsTheDatumSystemOfTheBlank) {
   const auto cone = ConePopulation::of(12, true, {}, 1e-4);
   const Population population = cone.population();
   EXPECT_TRUE(population.reasons().empty());
-  std::size_t whole = 0;
-  const auto draws = cone.draws(20);
-  for (const PopulationMember& member : population.evaluate(draws)) whole += member.whole;
-  EXPECT_EQ(whole, 0U);
+  EXPECT_EQ(points_asked_whole(population, cone.draws(20)), 0U);
   expect_equal_to_whole_trials(cone, proof::law_count(20U, 2U), 1.0);
 }
 
