@@ -58,7 +58,8 @@ struct Signature {
 [[nodiscard]] Result<Signature> signature(std::span<const CircleTrace> traces, double length);
 
 // Whether each term can be identified from a trace: with one reading a degree its standard
-// deviation is below the noise of a single reading. A quadrant identifies backlash and servo mismatch only.
+// deviation is below the noise of a single reading. A quadrant identifies backlash and servo
+// mismatch only.
 [[nodiscard]] std::array<bool, kSignatureTerms> told_terms(std::span<const CircleTrace> traces,
                                                            const Signature& signature,
                                                            double length);
