@@ -149,8 +149,8 @@ class StudyCommand {
       return kBadInput;
     }
     StudyRun run(study_, model_, *engine, ranks_, {*mark, study_.seed});
+    const Interruption interruption;  // Stands before Ctrl-C is announced.
     if (work->merge.empty()) announce(run, *work, engine->result.name);
-    const Interruption interruption;
     drawing_since_ = now();
     progress.begin(fmt::format("draw {} machines", study_.samples));
     const auto end =
