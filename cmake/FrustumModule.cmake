@@ -1,13 +1,14 @@
-# frustum_module(NAME SOURCES a.cpp ... [HOT b.cpp ...] [ALONE c.cpp ...] [USES frustum::core ...]
+# frustum_module(NAME [COLD] SOURCES a.cpp ... [HOT b.cpp ...] [ALONE c.cpp ...] [USES frustum::core ...]
 #                [PRIVATE_USES ...] [PRECOMPILED <header> ...] [BATCH size])
 #
 # One room: a static library frustum_NAME with alias frustum::NAME. USES are the arrows of the house;
 # PRIVATE_USES are libraries that only the room's .cpp files see. HOT sources run in innermost loops and are
 # compiled for speed; ALONE sources read headers so large, or are read with definitions of their own, that
-# they are compiled one at a time; PRECOMPILED are large headers that several of them read. At most BATCH
-# sources (10) are compiled together: fewer where each takes long, so that a touch of one is built soon.
+# they are compiled one at a time; PRECOMPILED are large headers that several of them read. COLD rooms are made
+# to be compiled soon rather than to run fast. At most BATCH sources (10) are compiled together: fewer where
+# each takes long, so that a touch of one is built soon.
 function(frustum_module name)
-  cmake_parse_arguments(ROOM "" "BATCH" "SOURCES;HOT;ALONE;USES;PRIVATE_USES;PRECOMPILED" ${ARGN})
+  cmake_parse_arguments(ROOM "COLD" "BATCH" "SOURCES;HOT;ALONE;USES;PRIVATE_USES;PRECOMPILED" ${ARGN})
   set(room frustum_${name})
   add_library(${room} STATIC ${ROOM_SOURCES} ${ROOM_ALONE})
   if(NOT ROOM_BATCH)
@@ -32,6 +33,9 @@ function(frustum_module name)
     ${room}
     PUBLIC ${ROOM_USES}
     PRIVATE $<BUILD_INTERFACE:frustum_flags> ${ROOM_PRIVATE_USES})
+  if(ROOM_COLD)
+    frustum_cold(${room})
+  endif()
   frustum_precompile(${room} ${ROOM_PRECOMPILED})
   set_property(GLOBAL APPEND PROPERTY FRUSTUM_ROOMS ${name})
 endfunction()

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <algorithm>
 
 namespace frustum {
 namespace {
@@ -48,7 +49,21 @@ VectorXd shortest_solution(const MatrixXd& rows, const VectorXd& right,
 
 PivotedTriangle pivoted_triangle(const MatrixXd& matrix) {
   const Eigen::ColPivHouseholderQR<MatrixXd> qr(matrix);
-  return {qr.matrixR().topRows(matrix.cols()).triangularView<Eigen::Upper>(), qr.colsPermutation()};
+  const Eigen::Index n = matrix.cols();
+  const Eigen::Index filled = std::min(n, matrix.rows());
+  MatrixXd triangle = MatrixXd::Zero(n, n);
+  triangle.topRows(filled) = qr.matrixR().topRows(filled);
+  return {triangle.triangularView<Eigen::Upper>(), qr.colsPermutation()};
+}
+
+MatrixXd inverse_of(const MatrixXd& square) {
+  return Eigen::PartialPivLU<MatrixXd>(square).inverse();
+}
+
+MatrixXd lower_root(const MatrixXd& matrix) { return Eigen::LLT<MatrixXd>(matrix).matrixL(); }
+
+MatrixXd lower_inverse(const MatrixXd& lower) {
+  return lower.triangularView<Eigen::Lower>().solve(MatrixXd::Identity(lower.rows(), lower.cols()));
 }
 
 struct SymmetricFactors::Factors {

@@ -55,14 +55,22 @@ struct SingularValues {
                                                 const Eigen::VectorXd& right,
                                                 std::optional<double> threshold = std::nullopt);
 
-// R of matrix * P = Q R, with as many rows as columns, and P as a matrix.
+// R of matrix * P = Q R, square (zero below where there are fewer rows), and P as a matrix.
 struct PivotedTriangle {
   Eigen::MatrixXd triangle{};
   Eigen::PermutationMatrix<Eigen::Dynamic> columns{};
 };
 [[nodiscard]] PivotedTriangle pivoted_triangle(const Eigen::MatrixXd& matrix);
 
-// L D L^T of a symmetric matrix, kept for several right-hand sides.
+// Of a square matrix, by partial pivoting.
+[[nodiscard]] Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& square);
+// L with L L^T = matrix (symmetric, positive definite; the lower triangle is read).
+[[nodiscard]] Eigen::MatrixXd lower_root(const Eigen::MatrixXd& matrix);
+// Of a lower triangular matrix.
+[[nodiscard]] Eigen::MatrixXd lower_inverse(const Eigen::MatrixXd& lower);
+
+// L D L^T of a symmetric matrix, of which the lower triangle is read, kept for several right-hand
+// sides.
 class SymmetricFactors {
  public:
   explicit SymmetricFactors(const Eigen::MatrixXd& matrix);

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/linear_algebra.hpp"
 #include "core/pose.hpp"
 #include "metrology/fit/minimax/linear_minimax.hpp"
 
@@ -30,18 +30,20 @@ Result<PolarCircle> least_squares_circle(const PolarSamples& samples) {
     normal += row * row.transpose();
     right += samples.deviation[i] * row;
   }
-  const Eigen::LDLT<Mat3> factors(normal);
+  const SymmetricFactors factors(normal);
   // 1e-13 of the largest pivot: three samples within a hundredth of a degree.
-  if (!(factors.vectorD().minCoeff() > 1e-13 * factors.vectorD().maxCoeff())) {
+  const Eigen::VectorXd pivots = factors.pivots();
+  if (!(pivots.minCoeff() > 1e-13 * pivots.maxCoeff())) {
     return error("arc-too-short"_id, "the samples are on too short an arc to fit a circle to");
   }
-  Vec3 circle = factors.solve(right);
+  Vec3 circle = factors.solve(Eigen::VectorXd(right));
   Vec3 left = Vec3::Zero();
   for (std::size_t i = 0; i < samples.angle.size(); ++i) {
     const Vec3 row(1.0, std::cos(samples.angle[i]), std::sin(samples.angle[i]));
     left += (samples.deviation[i] - row.dot(circle)) * row;
   }
-  circle += factors.solve(left);  // restores the digits that the normal equations lose
+  circle +=
+      factors.solve(Eigen::VectorXd(left));  // restores the digits that the normal equations lose
   return PolarCircle{circle[0], circle[1], circle[2]};
 }
 

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "core/linear_algebra.hpp"
 
 namespace frustum::instruments {
 namespace {
@@ -95,13 +96,14 @@ Result<Signature> signature(std::span<const CircleTrace> traces, double length) 
     normal(kServo, kServo) = static_cast<double>(count);
     right[kServo] = 0.0;
   }
-  const Eigen::LDLT<TermsSquare> factors(normal);
+  const SymmetricFactors factors(normal);
   // A quadrant leaves 1e-5; 1e-11 is an arc of a few degrees, whose terms are all alike.
-  if (!(factors.vectorD().minCoeff() > 1e-11 * factors.vectorD().maxCoeff())) {
+  const Eigen::VectorXd pivots = factors.pivots();
+  if (!(pivots.minCoeff() > 1e-11 * pivots.maxCoeff())) {
     return error("arc-too-short"_id, "the arc is too short to separate the terms of the circle",
                  "measure at least a quadrant");
   }
-  Terms x = factors.solve(right);
+  Terms x = factors.solve(Eigen::VectorXd(right));
   if (!found.both_senses) x[kServo] = 0.0;
   const auto left_over = [&](std::size_t t, std::size_t i) {
     return traces[t].deviation[i] - row_at(traces[t].angle[i], sign_of(traces[t].sense)).dot(x);
@@ -113,7 +115,7 @@ Result<Signature> signature(std::span<const CircleTrace> traces, double length) 
     }
   }
   if (!found.both_senses) left[kServo] = 0.0;
-  x += factors.solve(left);  // restores the digits that the normal equations lose
+  x += factors.solve(Eigen::VectorXd(left));  // restores the digits that the normal equations lose
   double squares = 0.0;
   for (std::size_t t = 0; t < traces.size(); ++t) {
     for (std::size_t i = 0; i < traces[t].angle.size(); ++i) {
@@ -122,7 +124,7 @@ Result<Signature> signature(std::span<const CircleTrace> traces, double length) 
   }
   found.residual_rms = std::sqrt(squares / static_cast<double>(count));
   const double noise = std::sqrt(squares / static_cast<double>(count - kSignatureTerms));
-  const TermsSquare covariance = factors.solve(TermsSquare(TermsSquare::Identity()));
+  const TermsSquare covariance = factors.solve(Eigen::MatrixXd(TermsSquare::Identity()));
   for (std::size_t k = 0; k < kSignatureTerms; ++k) {
     const auto at = static_cast<Eigen::Index>(k);
     const double unit = static_cast<SignatureTerm>(k) == SignatureTerm::square ? length : 1.0;

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <cmath>
+#include <limits>
+
+#include "core/linear_algebra.hpp"
 
 namespace frustum::instruments {
 
@@ -14,19 +16,18 @@ Result<TurnHarmonics> turn_harmonics(const PolarSamples& samples) {
     return error("too-few-samples"_id,
                  fmt::format("two harmonics need five samples, given are {}", count));
   }
-  Eigen::Matrix<double, Eigen::Dynamic, kTerms> rows(count, kTerms);
+  Eigen::MatrixXd rows(count, kTerms);
   Eigen::VectorXd readings(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const double t = samples.angle[static_cast<std::size_t>(i)];
     rows.row(i) << 1.0, std::cos(t), std::sin(t), std::cos(2.0 * t), std::sin(2.0 * t);
     readings[i] = samples.deviation[static_cast<std::size_t>(i)];
   }
-  const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, kTerms>> factors(rows);
-  if (factors.rank() < kTerms) {
+  if (column_rank(rows, kTerms * std::numeric_limits<double>::epsilon()) < kTerms) {
     return error("arc-too-short"_id, "the angles do not separate two harmonics",
                  "give more angles, over a longer arc");
   }
-  const Eigen::Matrix<double, kTerms, 1> x = factors.solve(readings);
+  const Eigen::VectorXd x = least_squares_solution(rows, readings);
   TurnHarmonics found;
   for (Eigen::Index k = 0; k < kTerms; ++k) found.value[static_cast<std::size_t>(k)] = x[k];
   found.residual_rms = (readings - rows * x).norm() / std::sqrt(static_cast<double>(count));

@@ -1,12 +1,12 @@
 #include "app/study/study_map.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "app/study/piece_model.hpp"
 #include "app/study/sampler.hpp"
+#include "core/linear_algebra.hpp"
 #include "programs/cone/cone_frustum.hpp"
 #include "studies/statistics/summary.hpp"
 
@@ -68,9 +68,7 @@ Result<studies::MapRow> row_of(const StudyFile& study, double cone_angle, double
   const studies::WeightMoments moments = factors.weight_moments();
   const Eigen::MatrixXd covariance = view->gains * moments.covariance * view->gains.transpose();
   row.rms_um = std::sqrt(covariance.trace() / static_cast<double>(view->gains.rows()));
-  const Eigen::VectorXd spread =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(covariance, Eigen::EigenvaluesOnly)
-          .eigenvalues();
+  const Eigen::VectorXd spread = symmetric_eigenvalues(covariance);
   row.directions = spread.sum() * spread.sum() / spread.squaredNorm();
   const std::vector<double> largest = factors.largest_weights();
   for (const studies::Factor& factor : factors.factors()) {

@@ -2,12 +2,12 @@
 // equivalent form of a cone.
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
+#include "core/linear_algebra.hpp"
 #include "metrology/characteristic/datum_element.hpp"
 #include "metrology/characteristic/evaluators.hpp"
 #include "metrology/characteristic/gaussian_filter.hpp"
@@ -59,8 +59,8 @@ std::optional<Diagnostic> uneven(const std::vector<Vec3>& points, double form_mm
   for (const Vec3& p : points) centroid += p / static_cast<double>(points.size());
   Mat3 spread = Mat3::Zero();
   for (const Vec3& p : points) spread += (p - centroid) * (p - centroid).transpose();
-  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(spread / static_cast<double>(points.size()));
-  const Vec3 normal = eigen.eigenvectors().col(0);
+  const SymmetricEigen eigen = symmetric_eigen(spread / static_cast<double>(points.size()));
+  const Vec3 normal = eigen.vectors.col(0);
   double low = 0.0;
   double high = 0.0;
   double squares = 0.0;
@@ -70,7 +70,7 @@ std::optional<Diagnostic> uneven(const std::vector<Vec3>& points, double form_mm
     high = std::max(high, height);
     squares += height * height / static_cast<double>(points.size());
   }
-  const double width = std::sqrt(std::max(0.0, eigen.eigenvalues()[1]));
+  const double width = std::sqrt(std::max(0.0, eigen.values[1]));
   const double tilt = std::sqrt(squares) / width;
   const double made = (high - low) * tilt + 0.5 * width * tilt * tilt;
   if (!(made > kShare * form_mm)) return std::nullopt;

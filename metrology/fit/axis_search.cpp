@@ -1,10 +1,11 @@
 #include "metrology/fit/axis_search.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "core/linear_algebra.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -77,7 +78,8 @@ Ranked ranked(const Moments& moments, const Vec3& axis, RoundKind kind) {
   normal += 1e-13 * Eigen::MatrixXd::Identity(count, count);
   const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 5, 1> right =
       basis.transpose() * moments * lateral;
-  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 5, 1> solution = normal.ldlt().solve(right);
+  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 5, 1> solution =
+      SymmetricFactors(normal).solve(Eigen::VectorXd(right));
   Ranked result;
   result.candidate.axis = axis;
   result.candidate.point = 0.5 * (solution[0] * u + solution[1] * v);

@@ -1,12 +1,12 @@
 #include "metrology/fit/best_fit.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <vector>
 
+#include "core/linear_algebra.hpp"
 #include "core/units.hpp"
 
 namespace frustum::metrology {
@@ -134,13 +134,13 @@ bool is_steady(const Task& task, const Pose& planned_from_measured, const Vec6& 
 
 // The directions in which the points say how they lie, at a pose.
 std::vector<Vec6> told_ways(const Task& task, const Pose& planned_from_measured, Telling telling) {
-  const Eigen::SelfAdjointEigenSolver<Mat6> eigen(normal_of(task, planned_from_measured).matrix);
-  const double largest = eigen.eigenvalues().maxCoeff();
+  const SymmetricEigen eigen = symmetric_eigen(normal_of(task, planned_from_measured).matrix);
+  const double largest = eigen.values.maxCoeff();
   std::vector<Vec6> told;
   for (Eigen::Index k = 0; k < 6; ++k) {
-    const double curvature = eigen.eigenvalues()[k];
+    const double curvature = eigen.values[k];
     if (!(curvature > kUntold * largest)) continue;
-    const Vec6 way = eigen.eigenvectors().col(k);
+    const Vec6 way = eigen.vectors.col(k);
     // The whole curvature of half the sum of squares, by differences of its gradient.
     const double h = 1e-4 * task.size;
     const auto slope = [&](double step) {
@@ -158,12 +158,12 @@ std::vector<Vec6> told_ways(const Task& task, const Pose& planned_from_measured,
 
 // Those that need no such proof as planned.
 std::vector<Vec6> strong_ways(const Task& task, Telling telling) {
-  const Eigen::SelfAdjointEigenSolver<Mat6> eigen(normal_of(task, {}).matrix);
+  const SymmetricEigen eigen = symmetric_eigen(normal_of(task, {}).matrix);
   constexpr double kStrong = 1e-3;  // of the largest: a lever arm of 3 % of the part
   std::vector<Vec6> strong;
   for (Eigen::Index k = 0; k < 6; ++k) {
-    if (!(eigen.eigenvalues()[k] > kStrong * eigen.eigenvalues().maxCoeff())) continue;
-    const Vec6 way = eigen.eigenvectors().col(k);
+    if (!(eigen.values[k] > kStrong * eigen.values.maxCoeff())) continue;
+    const Vec6 way = eigen.vectors.col(k);
     if (telling == Telling::any || is_steady(task, {}, way)) strong.push_back(way);
   }
   return strong;
@@ -210,7 +210,8 @@ std::optional<Pose> settled(const Task& task, const std::vector<Vec6>& ways, Pos
   for (int round = 0; round < kRounds; ++round) {
     const Normal n = normal_of(task, pose);
     const Eigen::MatrixXd matrix = basis.transpose() * n.matrix * basis;
-    const Vec6 step = basis * matrix.ldlt().solve(basis.transpose() * n.right);
+    const Vec6 step =
+        basis * SymmetricFactors(matrix).solve(Eigen::VectorXd(basis.transpose() * n.right));
     if (!step.allFinite()) return std::nullopt;
     pose = motion_of(step, task.size) * pose;
     if (std::sqrt(std::max(0.0, step.dot(n.matrix * step))) <= limit) return pose;

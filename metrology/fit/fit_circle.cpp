@@ -1,11 +1,12 @@
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
+#include "core/linear_algebra.hpp"
 #include "metrology/fit/constraint_steps.hpp"
 #include "metrology/fit/fixed_radius.hpp"
 #include "metrology/fit/least_squares.hpp"
@@ -20,7 +21,7 @@ constexpr Wording kCircleWording{"circle", "a circle needs three points that dif
 // Algebraic circle about a given direction: linear in centre and radius^2 - centre^2.
 Circle algebraic_circle(const NormalisedPoints& local, const UnitVec3& normal) {
   const auto [u, v] = tangents(normal);
-  Eigen::MatrixX3d rows(static_cast<Eigen::Index>(local.points.size()), 3);
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(local.points.size()), 3);
   Eigen::VectorXd right(rows.rows());
   for (std::size_t k = 0; k < local.points.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
@@ -29,7 +30,7 @@ Circle algebraic_circle(const NormalisedPoints& local, const UnitVec3& normal) {
     rows.row(i) << 2.0 * root * p.transpose(), root;
     right[i] = root * p.squaredNorm();
   }
-  const Eigen::Vector3d s = rows.colPivHouseholderQr().solve(right);
+  const Eigen::Vector3d s = least_squares_solution(rows, right);
   return {s.x() * u + s.y() * v, normal,
           std::sqrt(std::max(s[2] + s.head<2>().squaredNorm(), 0.0))};
 }

@@ -1,7 +1,7 @@
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear_algebra.hpp"
 #include "metrology/fit/least_squares.hpp"
 #include "metrology/fit/round_fit.hpp"
 
@@ -24,8 +24,8 @@ Cone start_on(const AxisCandidate& candidate, const NormalisedPoints& few) {
   }
   Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
   for (const Eigen::Vector2d& p : places) spread += (p - mean) * (p - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(spread);
-  const Eigen::Vector2d generatrix = eigen.eigenvectors().col(1);
+  const SymmetricEigen eigen = symmetric_eigen(spread);
+  const Eigen::Vector2d generatrix = eigen.vectors.col(1);
   Cone start;
   start.point = candidate.point;
   // Away from the cylinder and the plane, where the angle would have nothing to hold on to.

@@ -1,7 +1,7 @@
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear_algebra.hpp"
 #include "metrology/fit/fixed_radius.hpp"
 #include "metrology/fit/least_squares.hpp"
 #include "metrology/fit/round_fit.hpp"
@@ -13,7 +13,7 @@ constexpr Wording kSphereWording{"sphere", "probe a larger part of the sphere"};
 
 // Algebraic sphere: linear in centre and radius^2 - centre^2.
 Sphere algebraic_sphere(const NormalisedPoints& local) {
-  Eigen::MatrixX4d rows(static_cast<Eigen::Index>(local.points.size()), 4);
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(local.points.size()), 4);
   Eigen::VectorXd right(rows.rows());
   for (std::size_t k = 0; k < local.points.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
@@ -21,7 +21,7 @@ Sphere algebraic_sphere(const NormalisedPoints& local) {
     rows.row(i) << 2.0 * root * local.points[k].transpose(), root;
     right[i] = root * local.points[k].squaredNorm();
   }
-  const Eigen::Vector4d s = rows.colPivHouseholderQr().solve(right);
+  const Eigen::Vector4d s = least_squares_solution(rows, right);
   return {s.head<3>(), std::sqrt(std::max(s[3] + s.head<3>().squaredNorm(), 0.0))};
 }
 

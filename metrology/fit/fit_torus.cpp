@@ -1,7 +1,7 @@
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
+#include "core/linear_algebra.hpp"
 #include "metrology/fit/element_rows.hpp"
 #include "metrology/fit/least_squares.hpp"
 #include "metrology/fit/plausibility.hpp"
@@ -28,7 +28,7 @@ Torus around(const AxisCandidate& candidate, const NormalisedPoints& few) {
     normal += monomials * monomials.transpose();
     right += (away * away + along * along) * monomials;
   }
-  const Vec3 s = normal.ldlt().solve(right);
+  const Vec3 s = SymmetricFactors(normal).solve(Eigen::VectorXd(right));
   const double tube = std::sqrt(std::max(s[2] + s[0] * s[0] + s[1] * s[1], 1e-12));
   // A thicker tube would cut itself.
   const double radius = std::max(std::abs(s[0]), 1.1 * tube);
@@ -50,7 +50,7 @@ Torus bent(const Cylinder& tube, const NormalisedPoints& few) {
     normal += monomials * monomials.transpose();
     right += at.residual * monomials;
   }
-  const Row7 s = normal.ldlt().solve(right);
+  const Row7 s = SymmetricFactors(normal).solve(Eigen::VectorXd(right));
   const auto uv = tangents(tube.axis);
   const auto across = [&](int i) -> Vec3 { return s[i] * uv.first + s[i + 1] * uv.second; };
   const UnitVec3 along = unit(tube.axis.vec() + across(2));

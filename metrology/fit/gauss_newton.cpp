@@ -1,7 +1,5 @@
 #include "metrology/fit/gauss_newton.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 
@@ -117,7 +115,7 @@ void GaussNewton::reduce() {
 ElementStep GaussNewton::step(double damping) const {
   Square damped = normal_;
   damped.diagonal().array() += damping;
-  const ElementStep scaled = damped.ldlt().solve(right_);
+  const ElementStep scaled = SymmetricFactors(damped).solve(Eigen::VectorXd(right_));
   return scaled.cwiseQuotient(length_);
 }
 
@@ -146,8 +144,7 @@ ElementStep GaussNewton::step_by_factors() const {
 
 double GaussNewton::condition() const {
   if (right_.size() == 0 || !std::isfinite(cost())) return 1.0;
-  const Eigen::SelfAdjointEigenSolver<Square> eigen(normal_, Eigen::EigenvaluesOnly);
-  const auto& values = eigen.eigenvalues();
+  const Eigen::VectorXd values = symmetric_eigenvalues(normal_);
   return std::sqrt(values[right_.size() - 1] / std::max(values[0], 1e-300));
 }
 
@@ -156,7 +153,7 @@ GaussNewton::Square GaussNewton::root_of_cofactor(Minimum& result) const {
   const Eigen::Index n = right_.size();
   if (result.condition < kGoodCondition) {
     result.well_posed = true;
-    return normal_.llt().matrixL().solve(Square::Identity(n, n)).transpose();
+    return lower_inverse(lower_root(normal_)).transpose();
   }
   const Eigen::MatrixXd all = rows();
   const SingularValues svd = singular_values(all.leftCols(n), SingularVectors::thin);

@@ -1,9 +1,9 @@
 // Where residuals are large: minima told from saddles by the second derivatives.
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/linear_algebra.hpp"
 #include "metrology/fit/curvature.hpp"
 #include "metrology/fit/gauss_newton.hpp"
 
@@ -34,16 +34,13 @@ GaussNewton::Bend GaussNewton::bend() const {
   const Square second = inverse_length * curvature_of(element_, *points_, basis) * inverse_length;
   Square normal = normal_;
   normal.diagonal().array() += 1e-8;  // for points that do not tell a parameter
-  const Square root = normal.llt().matrixL();
-  const auto lower = root.triangularView<Eigen::Lower>();
-  const Square half = lower.solve(second);
-  const Square full = lower.solve(Square(half.transpose()));
-  const Eigen::SelfAdjointEigenSolver<Square> eigen(Square(0.5 * (full + full.transpose())));
-  const Square& own = eigen.eigenvectors();
+  const Square inverse_root = lower_inverse(lower_root(normal));
+  const Square full = inverse_root * second * inverse_root.transpose();
+  const SymmetricEigen eigen = symmetric_eigen(0.5 * (full + full.transpose()));
   Bend bend;
-  bend.frame = inverse_length * Square(lower.transpose().solve(own));
-  bend.curvature = eigen.eigenvalues();
-  bend.downhill = own.transpose() * ElementStep(lower.solve(right_));
+  bend.frame = inverse_length * Square(inverse_root.transpose() * eigen.vectors);
+  bend.curvature = eigen.values;
+  bend.downhill = eigen.vectors.transpose() * ElementStep(inverse_root * right_);
   return bend;
 }
 

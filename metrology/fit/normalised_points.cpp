@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -184,22 +182,20 @@ double condition_of(const Eigen::MatrixXd& normal_equations) {
 }
 
 PrincipalDirections principal_directions(const NormalisedPoints& local) {
-  Eigen::Matrix<double, Eigen::Dynamic, 3> rows(static_cast<Eigen::Index>(local.points.size()), 3);
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(local.points.size()), 3);
   for (std::size_t i = 0; i < local.points.size(); ++i) {
     rows.row(static_cast<Eigen::Index>(i)) =
         std::sqrt(local.weight(i)) * local.points[i].transpose();
   }
   // Directions from the points themselves, not from their covariance matrix, which squares the
   // errors.
-  const Eigen::HouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, 3>> qr(rows);
-  Mat3 triangle = Mat3::Zero();
-  const Eigen::Index filled = std::min<Eigen::Index>(3, rows.rows());
-  triangle.topRows(filled) = qr.matrixQR().topRows(filled).template triangularView<Eigen::Upper>();
-  const Eigen::JacobiSVD<Mat3> svd(triangle, Eigen::ComputeFullV);
+  const PivotedTriangle qr = pivoted_triangle(rows);
+  const SingularValues svd =
+      singular_values(qr.triangle * qr.columns.transpose(), SingularVectors::full_right);
   PrincipalDirections principal;
-  if (svd.info() == Eigen::Success) {  // always, for finite points
-    principal.spread = svd.singularValues() / std::sqrt(local.all_weights());
-    principal.directions = svd.matrixV();
+  if (svd.converged) {  // always, for finite points
+    principal.spread = svd.values / std::sqrt(local.all_weights());
+    principal.directions = svd.right;
   }
   return principal;
 }

@@ -1,8 +1,9 @@
 #include "metrology/uncertainty/refit.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+
+#include "core/linear_algebra.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -70,10 +71,8 @@ std::optional<Round> settled(Round round, const std::vector<Vec3>& points, int p
   for (int i = 0; i < 20; ++i) {
     const Sums sums = sums_of(round, points, size);
     Step step = Step::Zero();
-    step.head(parameters) = sums.squares.topLeftCorner(parameters, parameters)
-                                .selfadjointView<Eigen::Lower>()
-                                .ldlt()
-                                .solve(sums.right.head(parameters));
+    step.head(parameters) = SymmetricFactors(sums.squares.topLeftCorner(parameters, parameters))
+                                .solve(Eigen::VectorXd(sums.right.head(parameters)));
     const double length = step.norm();
     if (!std::isfinite(length) || length > 0.1 * size) return std::nullopt;
     round = moved(round, step, size);

@@ -1,8 +1,9 @@
 #include "metrology/fit/minimax/linear_minimax.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+
+#include "core/linear_algebra.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -89,7 +90,7 @@ class DualSimplex {
       rows.row(i) = normal_of(basis_[static_cast<std::size_t>(i)]).transpose();
       limits_[i] = limit_of(basis_[static_cast<std::size_t>(i)]);
     }
-    inverse_ = rows.partialPivLu().inverse();
+    inverse_ = frustum::inverse_of(rows);
     is_exact_ = true;
   }
 
