@@ -96,6 +96,27 @@ TEST(Identification, SaysWhatCannotBeSeparated) {
   EXPECT_THAT(found->not_separated[0], testing::UnorderedElementsAreArray(names));
 }
 
+TEST(Identification, RefusesOverlapsControlsAndNothing) {
+  const DynamicModel model = model_named("iwf-bc");
+  auto measured = measured_on(model, home_position(), 0.0, 0);
+  const auto refusal = [&](const DynamicModel& machine, const std::vector<std::string>& names) {
+    const auto found = identify_parameters(machine, home_position(), 0.0, measured, names);
+    EXPECT_FALSE(found);
+    return found ? std::string() : found.error().front().message;
+  };
+  using testing::HasSubstr;
+  EXPECT_THAT(refusal(model, {"mount.stiffness", "mount.stiffness.z"}), HasSubstr("same numbers"));
+  EXPECT_THAT(refusal(model, {"mount.damping.horizontal", "mount.damping.x"}),
+              HasSubstr("same numbers"));
+  EXPECT_THAT(refusal(model, {"X.carriage.damping.normal", "X.carriage.damping"}),
+              HasSubstr("same numbers"));
+  EXPECT_THAT(refusal(model_named("iwf-bc", true), {"mount.stiffness"}), HasSubstr("controlled"));
+  EXPECT_TRUE(identify_parameters(model, home_position(), 0.0, measured,
+                                  {"mount.stiffness.horizontal", "mount.stiffness.z"}));
+  measured.front().compliance[2] = 0.0;
+  EXPECT_THAT(refusal(model, {"mount.stiffness"}), HasSubstr("has no phase"));
+}
+
 TEST(Identification, RefusesUnknownNamesAndTooFewLines) {
   const DynamicModel model = model_named("iwf-bc");
   const auto measured = measured_on(model, home_position(), 0.0, 0);
