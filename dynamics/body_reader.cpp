@@ -10,6 +10,7 @@ namespace {
 // Beyond these a number is in another unit: no part of a machine tool is so heavy or so wide.
 constexpr double kHeaviest = 1e7;  // kg
 constexpr double kLightest = 1e-3;
+constexpr double kFarthest = 1e6;  // mm: a kilometre
 constexpr double kWidest = 100.0;  // m, radius of gyration
 constexpr double kNarrowest = 1e-4;
 constexpr double kDensest = 25000.0;  // kg/m^3, of osmium 22590
@@ -18,13 +19,23 @@ bool all_positive(const Vec3& v) { return (v.array() > 0.0).all(); }
 
 SolidShape read_shape(const TomlTable& table) {
   const auto length = [&](const char* key) {
-    return table.number(key, Bound::positive) * kMetresPerMm;
+    const double value = table.number(key, Bound::positive);
+    if (value > kFarthest) {
+      table.fail(key, "out-of-range"_id, "the solid is longer than a kilometre", "in mm");
+      return 1.0;
+    }
+    return value * kMetresPerMm;
   };
   switch (table.choice("shape", {"box", "cylinder", "prism"})) {
     case 0: {
       const Vec3 size = table.vector("size");
       if (table.is_array("size") && !all_positive(size)) {
         table.fail("size", "empty-body"_id, "the solid is empty: every size must be above 0",
+                   "size = [x, y, z] in mm");
+        return SolidBox{};
+      }
+      if (size.cwiseAbs().maxCoeff() > kFarthest) {
+        table.fail("size", "out-of-range"_id, "the solid is longer than a kilometre",
                    "size = [x, y, z] in mm");
         return SolidBox{};
       }
@@ -37,7 +48,12 @@ SolidShape read_shape(const TomlTable& table) {
   }
   SolidPrism prism{{}, length("length")};
   for (const auto& corner : table.rows("outline", 2)) {
-    prism.outline.emplace_back(Eigen::Vector2d(corner[0], corner[1]) * kMetresPerMm);
+    const Eigen::Vector2d at(corner[0], corner[1]);
+    if (at.cwiseAbs().maxCoeff() > kFarthest) {
+      table.fail("outline", "out-of-range"_id, "a corner is more than a kilometre away", "in mm");
+      return prism;
+    }
+    prism.outline.emplace_back(at * kMetresPerMm);
   }
   if (crosses_itself(prism)) {
     table.fail("outline", "empty-body"_id, "the outline crosses itself",
@@ -109,7 +125,6 @@ RigidBody read_solids(const TomlTable& table) {
 }  // namespace
 
 Vec3 point_of(const TomlTable& table, std::string_view key) {
-  constexpr double kFarthest = 1e6;  // mm: a kilometre
   const Vec3 point = table.vector(key);
   if (point.cwiseAbs().maxCoeff() > kFarthest) {
     table.fail(key, "out-of-range"_id, "the point is more than a kilometre away",

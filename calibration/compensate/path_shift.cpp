@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/modes.hpp"
 #include "dynamics/path_deviation.hpp"
 #include "trials/trial.hpp"
 
@@ -10,6 +11,69 @@ namespace frustum::calibration {
 
 using kinematics::ToolPath;
 using kinematics::ToolPose;
+
+namespace {
+
+using dynamics::PoseDeviation;
+using Row = Eigen::Matrix<double, 6, 1>;  // tip, turn
+
+// The running mean over 2 n + 1 samples; at the ends of what is there.
+std::vector<Row> mean_of(const std::vector<Row>& rows, std::size_t n) {
+  std::vector<Row> sums{Row::Zero()};
+  for (const Row& row : rows) sums.push_back(sums.back() + row);
+  std::vector<Row> means;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    // Even on both sides, so that the ends stay where they are.
+    const std::size_t reach = std::min({n, i, rows.size() - 1 - i});
+    means.push_back((sums[i + reach + 1] - sums[i - reach]) /
+                    static_cast<double>(2 * reach + 1));
+  }
+  return means;
+}
+
+std::vector<Row> slow_part(const std::vector<Row>& rows, std::size_t n) {
+  const auto smoothed = [n](const std::vector<Row>& all) { return mean_of(mean_of(all, n), n); };
+  std::vector<Row> once = smoothed(rows);
+  const std::vector<Row> twice = smoothed(once);
+  for (std::size_t i = 0; i < once.size(); ++i) once[i] += once[i] - twice[i];
+  return once;
+}
+
+// What shifted axes can take off of the deviations at the poses of a path.
+std::vector<PoseDeviation> slow_deviations(const ToolPath& path,
+                                           const std::vector<PoseDeviation>& deviations,
+                                           double first_frequency) {
+  constexpr double kStep = 1e-3;  // s
+  std::vector<PoseDeviation> slow = deviations;
+  if (path.times.size() < 2) return slow;
+  const double from = path.times.front();
+  const auto count = static_cast<std::size_t>((path.times.back() - from) / kStep) + 2;
+  std::vector<Row> even;
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double time = from + static_cast<double>(k) * kStep;
+    while (i + 2 < path.times.size() && path.times[i + 1] <= time) ++i;
+    const double span = path.times[i + 1] - path.times[i];
+    const double t = span > 0.0 ? std::clamp((time - path.times[i]) / span, 0.0, 1.0) : 1.0;
+    const PoseDeviation &a = deviations[i], &b = deviations[i + 1];
+    Row row;
+    row << a.tip + t * (b.tip - a.tip), a.turn + t * (b.turn - a.turn);
+    even.push_back(row);
+  }
+  const double half_width = 1.0 / first_frequency;  // s, of each of the two means
+  const std::vector<Row> found =
+      slow_part(even, static_cast<std::size_t>(std::max(1.0, half_width / kStep)));
+  for (std::size_t pose = 0; pose < slow.size(); ++pose) {
+    const double place = (path.times[pose] - from) / kStep;
+    const auto below = std::min(static_cast<std::size_t>(place), found.size() - 2);
+    const Row row =
+        found[below] + (place - static_cast<double>(below)) * (found[below + 1] - found[below]);
+    slow[pose] = {row.head<3>(), row.tail<3>()};
+  }
+  return slow;
+}
+
+}  // namespace
 
 Result<PathShift> PathShift::of_run(const kinematics::Machine& machine,
                                     const kinematics::GeometricErrors& errors,
@@ -25,8 +89,11 @@ Result<PathShift> PathShift::of_run(const kinematics::Machine& machine,
   const auto travel = trials::still_travel(machine, errors, setup, program, still);
   if (!travel) return travel.error();
   const ToolPath& path = travel->path;
-  const auto deviations =
-      pose_deviations(*options.run.dynamic_model, setup, path, options.run.dynamics);
+  const dynamics::DynamicModel& model = *options.run.dynamic_model;
+  const double first_frequency =
+      natural_frequencies(structure_at(model, program.start, 0.0))[0];
+  const std::vector<PoseDeviation> deviations = slow_deviations(
+      path, pose_deviations(model, setup, path, options.run.dynamics), first_frequency);
   const Mat3& table_from_workpiece = setup.table_from_workpiece.rotation;
   const auto source_of = [&](std::uint32_t block) {
     return sources.empty() ? SourceSpan{.block = block} : sources[block];

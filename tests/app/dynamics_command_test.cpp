@@ -1,6 +1,7 @@
 // frustum dynamics on a shipped machine and on files that are wrong.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -161,6 +162,10 @@ TEST_F(DynamicsCommandSystem, NamesTheAxisOfAnUnstableControl) {
   const Outcome outcome = run("dynamics m.toml --axes Z=300");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.err.find("control of axis C is unstable"), std::string::npos) << outcome.err;
+  // The line of its table.
+  const std::string text = shipped();
+  const auto line = std::ranges::count(text, '\n') + 1;
+  EXPECT_NE(outcome.err.find("m.toml:" + std::to_string(line)), std::string::npos) << outcome.err;
 }
 
 class DynamicsJobSystem : public DynamicsCommandSystem {

@@ -63,7 +63,7 @@ double form_of(const std::vector<double>& degrees, const std::vector<double>& va
 TEST_F(MotionDynamicsSystem, ABarOnTheConeReadsTheFormOfThePath) {
   const auto form = [&](const char* feed, const char* method) {
     const json found =
-        moved_answer(run(std::string("motion cone --machine iwf-bc --tool-length 150 --jerk --json "
+        moved_answer(run(std::string("motion cone --machine iwf-bc --tool-length 150 --json "
                                      "--dynamics ") +
                          method + " --feed " + feed));
     EXPECT_EQ(found["dynamics"], method);
@@ -108,13 +108,14 @@ TEST_F(MotionDynamicsSystem, ATurnGrowsWithTheSquareOfItsFeed) {
   const auto reading = [&](const char* feed) {
     return moved_answer(
                run(std::string("motion rotary --machine iwf-bc --axis C --direction radial "
-                               "--ball 100,0,150 --tool-length 150 --angles 90,180,270 "
+                               "--ball 50,0,150 --length 100 --tool-length 150 "
+                                  "--angles 0,170,180,190,360 "
                                "--dynamics quasi_static --json --feed ") +
                    feed))["reading_um"]
         .get<std::vector<double>>();
   };
   const auto slow = reading("3600"), fast = reading("7200");
-  for (std::size_t i = 0; i < slow.size(); ++i) {
+  for (std::size_t i = 1; i < 4; ++i) {  // beside the ends, where the axis gets up to its speed
     EXPECT_GT(std::abs(slow[i]), 0.01);
     EXPECT_NEAR(fast[i] / slow[i], 4.0, 0.01);
   }
