@@ -332,6 +332,19 @@ Result<Identification> identify_parameters(const DynamicModel& model,
   const auto count = static_cast<Index>(names.size());
   const Solution solution = solve(fit, count);
   if (!solution.converged || !solution.log_factors.allFinite()) {
+    // What the responses do not show drifts away.
+    const double left = solution.residuals.values.norm() /
+                        std::sqrt(static_cast<double>(fit.residual_count() - count));
+    const auto unseen =
+        unseen_combinations(fit.at(VectorXd::Zero(count)).jacobian, left, names);
+    if (!unseen.empty()) {
+      return error("not-separated"_id,
+                   unseen.front().size() == 1
+                       ? fmt::format("the responses show nothing of {}", unseen.front().front())
+                       : fmt::format("the responses do not tell {} apart",
+                                     fmt::join(unseen.front(), " and ")),
+                   "leave it out, or measure nearer to the modes in which it yields");
+    }
     return error("not-converged"_id, "no parameters explain the measured responses",
                  "check units and directions of the file, or name other parameters");
   }

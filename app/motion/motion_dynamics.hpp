@@ -2,8 +2,8 @@
 // feed.
 //
 // Model    : the way is run once, from rest to rest, by the time law of the machine's limits
-//            (kinematics/timing/time_law.hpp); the deviation of dynamics/path_response.hpp when each
-//            sample is passed. A turn in steady state is circle_dynamics.hpp
+//            (kinematics/timing/time_law.hpp); the deviation of dynamics/path_response.hpp when
+//            each sample is passed. A turn in steady state is circle_dynamics.hpp
 // Units    : mm, rad, s; frame: table
 // Shape    : a deviation for each parameter
 // Errors   : a word that is no method, a method without a feed and the other way round, a machine

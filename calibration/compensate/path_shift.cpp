@@ -25,8 +25,7 @@ std::vector<Row> mean_of(const std::vector<Row>& rows, std::size_t n) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     // Even on both sides, so that the ends stay where they are.
     const std::size_t reach = std::min({n, i, rows.size() - 1 - i});
-    means.push_back((sums[i + reach + 1] - sums[i - reach]) /
-                    static_cast<double>(2 * reach + 1));
+    means.push_back((sums[i + reach + 1] - sums[i - reach]) / static_cast<double>(2 * reach + 1));
   }
   return means;
 }
@@ -86,14 +85,19 @@ Result<PathShift> PathShift::of_run(const kinematics::Machine& machine,
   // Without the deviation: it is asked for by itself.
   trials::TrialOptions still = options.run;
   still.path_bound = 0.5 * options.bound;
+  // What is slow is the same without vibrations, but for loops, which lag.
+  const dynamics::DynamicModel& model = *options.run.dynamic_model;
+  if (!model.is_controlled()) {
+    constexpr double kLeastStep = 2e-3;  // s, as of jobs that ask for it
+    still.dynamics.method = dynamics::PathMethod::quasi_static;
+    still.dynamics.time_step = std::max(still.dynamics.time_step, kLeastStep);
+  }
   const auto travel = trials::still_travel(machine, errors, setup, program, still);
   if (!travel) return travel.error();
   const ToolPath& path = travel->path;
-  const dynamics::DynamicModel& model = *options.run.dynamic_model;
-  const double first_frequency =
-      natural_frequencies(structure_at(model, program.start, 0.0))[0];
-  const std::vector<PoseDeviation> deviations = slow_deviations(
-      path, pose_deviations(model, setup, path, options.run.dynamics), first_frequency);
+  const double first_frequency = natural_frequencies(structure_at(model, program.start, 0.0))[0];
+  const std::vector<PoseDeviation> deviations =
+      slow_deviations(path, pose_deviations(model, setup, path, still.dynamics), first_frequency);
   const Mat3& table_from_workpiece = setup.table_from_workpiece.rotation;
   const auto source_of = [&](std::uint32_t block) {
     return sources.empty() ? SourceSpan{.block = block} : sources[block];

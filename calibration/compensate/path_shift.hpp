@@ -1,4 +1,4 @@
-// What a run of a program moves the tool by besides its errors, for each place of the program before
+// What a run of a program moves the tool by besides its errors, by places of the program before the
 // the correction.
 //
 // Model  : the deviation of masses and springs (dynamics/path_deviation.hpp) at each pose of a run,

@@ -81,8 +81,8 @@ std::string frequency_figure(const FrequencyChart& chart) {
   const std::vector<double> floor_y = logarithms(chart.floor);
   for (std::size_t i = 0; i < floor_x.size() && i < floor_y.size(); ++i) {
     const double y = std::isfinite(floor_y[i]) ? floor_y[i] : on_size.range.low;
-    floor.push_back(above.at(floor_x[i], std::clamp(y, on_size.range.low, on_size.range.high), on_x,
-                             on_size));
+    floor.push_back(
+        above.at(floor_x[i], std::clamp(y, on_size.range.low, on_size.range.high), on_x, on_size));
   }
   if (floor.size() > 1) {
     floor.push_back({floor.back().x, above.bottom});

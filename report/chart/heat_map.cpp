@@ -70,9 +70,10 @@ std::string heat_map_figure(const HeatMap& map) {
   }
   const std::string ends =
       written ? ""
-              : fmt::format("<span class=\"shades\">{:.4g} <i style=\"background:linear-gradient("
-                            "90deg,{},{})\"></i> {:.4g}</span>",
-                            low, shade(0.0), shade(1.0), high);
+              : fmt::format(
+                    "<span class=\"shades\">{:.4g} <i style=\"background:linear-gradient("
+                    "90deg,{},{})\"></i> {:.4g}</span>",
+                    low, shade(0.0), shade(1.0), high);
   return fmt::format("<figure class=\"axes\"><figcaption><b>{}</b>{}</figcaption>\n{}</figure>\n",
                      html_text(map.title), ends, drawing.html());
 }

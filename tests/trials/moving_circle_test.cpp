@@ -14,8 +14,8 @@ namespace frustum::trials {
 namespace {
 
 const Vec3 kBall(0, 0, 150);
-constexpr double kBar = 50.0;       // mm
-constexpr double kFeed = 10000.0;   // mm/min
+constexpr double kBar = 50.0;      // mm
+constexpr double kFeed = 10000.0;  // mm/min
 
 programs::TestPiece circle_piece() {
   programs::TestPiece piece;
