@@ -335,8 +335,7 @@ Result<Identification> identify_parameters(const DynamicModel& model,
     // What the responses do not show drifts away.
     const double left = solution.residuals.values.norm() /
                         std::sqrt(static_cast<double>(fit.residual_count() - count));
-    const auto unseen =
-        unseen_combinations(fit.at(VectorXd::Zero(count)).jacobian, left, names);
+    const auto unseen = unseen_combinations(fit.at(VectorXd::Zero(count)).jacobian, left, names);
     if (!unseen.empty()) {
       return error("not-separated"_id,
                    unseen.front().size() == 1

@@ -1,5 +1,5 @@
 // What a run of a program moves the tool by besides its errors, by places of the program before the
-// the correction.
+// correction.
 //
 // Model  : the deviation of masses and springs (dynamics/path_deviation.hpp) at each pose of a run,
 //          by the block that the pose comes from and its u, linear in between. A program that has
