@@ -72,6 +72,11 @@ struct Control {
     Vec3 at = Vec3::Zero();
     Attached on = Attached::moving;
   };
+  // In the machine file, for what is found of it later.
+  struct Place {
+    std::string file{};
+    int line = 0, column = 0;
+  };
   Kind kind = Kind::direct;
   double position_gain = 0.0;             // Kv, 1/s
   double velocity_gain = 0.0;             // Kp, N s/m or N m s/rad
@@ -82,6 +87,7 @@ struct Control {
   double motor_inertia = 0.0;      // of a screw
   SpringDamper screw{};
   std::optional<Scale> scale{};  // none: the motor's encoder, of a direct drive the drive's point
+  Place place{};
 };
 
 struct AxisModel {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "core/constants.hpp"
 #include "core/general_algebra.hpp"
@@ -98,12 +99,15 @@ class Fit {
   Fit(Model model, std::span<const FrequencyResponse> measured) : model_(std::move(model)) {
     for (const FrequencyResponse& r : measured) {
       for (std::size_t i = 0; i < r.frequencies.size(); ++i, rows_ += 2) {
+        if (r.compliance[i] == 0.0) nothing_at_ = r.frequencies[i];
         lines_[r.frequencies[i]].values.push_back({r.motion, r.force, r.compliance[i], rows_});
       }
     }
   }
 
   [[nodiscard]] Index residual_count() const { return rows_; }
+  // Hz, where a response is 0.
+  [[nodiscard]] const std::optional<double>& nothing_at() const { return nothing_at_; }
 
   [[nodiscard]] Residuals at(const VectorXd& log_factors) const {
     const Index count = log_factors.size();
@@ -161,6 +165,7 @@ class Fit {
   Model model_;
   std::map<double, MeasuredAt> lines_{};  // by frequency
   Index rows_ = 0;
+  std::optional<double> nothing_at_{};
 };
 
 struct Solution {
@@ -223,6 +228,22 @@ std::vector<std::vector<std::string>> unseen_combinations(const MatrixXd& jacobi
   return combinations;
 }
 
+bool overlap(const DynamicModel& model, const std::string& a, const std::string& b) {
+  bool found = false;
+  for_each_number(model, [&](const std::string& connection, const char* part, double, double) {
+    for (const char* quantity : {"stiffness", "damping"}) {
+      const NamedNumber number = named(connection, part, quantity);
+      const auto stands = [&](const std::string& name) {
+        return name == number.whole || name == number.part ||
+               (std::string_view(part) != "z" && std::string_view(part).size() == 1 &&
+                name == connection + "." + quantity + ".horizontal");
+      };
+      found = found || (stands(a) && stands(b));
+    }
+  });
+  return found;
+}
+
 std::optional<Diagnostic> refused(const DynamicModel& model, const Fit& fit,
                                   const std::vector<std::string>& names) {
   const auto known = parameter_names(model);
@@ -236,6 +257,28 @@ std::optional<Diagnostic> refused(const DynamicModel& model, const Fit& fit,
         names.begin() + static_cast<std::ptrdiff_t>(i)) {
       return error("given-twice"_id, fmt::format("parameter {} is given twice", names[i]));
     }
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (!overlap(model, names[k], names[i])) continue;
+      return error(
+          "given-twice"_id,
+          fmt::format("parameters {} and {} stand for the same numbers", names[k], names[i]),
+          "name the parts of a connection, or the whole of it");
+    }
+  }
+  if (model.is_controlled()) {
+    return error(
+        "wrong-connection"_id,
+        fmt::format("the drives of machine {} are controlled: what is identified are the "
+                    "springs of drives",
+                    model.name),
+        "take the control tables out of the machine file, and measure with the drives off");
+  }
+  if (fit.nothing_at()) {
+    return error("out-of-range"_id,
+                 fmt::format("a response of 0 at {:g} Hz has no phase", *fit.nothing_at()),
+                 "leave that line out of the file");
   }
   if (names.empty() || fit.residual_count() <= static_cast<Index>(names.size())) {
     return error(
@@ -289,6 +332,18 @@ Result<Identification> identify_parameters(const DynamicModel& model,
   const auto count = static_cast<Index>(names.size());
   const Solution solution = solve(fit, count);
   if (!solution.converged || !solution.log_factors.allFinite()) {
+    // What the responses do not show drifts away.
+    const double left = solution.residuals.values.norm() /
+                        std::sqrt(static_cast<double>(fit.residual_count() - count));
+    const auto unseen = unseen_combinations(fit.at(VectorXd::Zero(count)).jacobian, left, names);
+    if (!unseen.empty()) {
+      return error("not-separated"_id,
+                   unseen.front().size() == 1
+                       ? fmt::format("the responses show nothing of {}", unseen.front().front())
+                       : fmt::format("the responses do not tell {} apart",
+                                     fmt::join(unseen.front(), " and ")),
+                   "leave it out, or measure nearer to the modes in which it yields");
+    }
     return error("not-converged"_id, "no parameters explain the measured responses",
                  "check units and directions of the file, or name other parameters");
   }

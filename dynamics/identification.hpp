@@ -9,7 +9,8 @@
 // Shape    : more than as many lines as parameters; names "mount.stiffness", "mount.stiffness.z"
 //            (x, y, z, horizontal), "X.carriage.damping" (.normal, .lateral), "B.bearing.stiffness"
 //            (.axial, .radial, .tilt), "X.drive.stiffness"
-// Errors   : names that the machine has not, with the nearest; too few lines; no convergence
+// Errors   : names that the machine has not, with the nearest, or that stand for the same numbers;
+//            controlled drives; a response of 0; too few lines; no convergence
 // Accuracy : 95 % intervals hold the truth in 90 to 98 % of 200 repetitions on ten machines with
 //            5 % noise (tests/dynamics/identification_test.cpp)
 // Source   : Marquardt 1963; the ETH thesis adjusts its mounts by hand

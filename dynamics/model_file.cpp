@@ -242,6 +242,18 @@ DynamicModel read_tables(const TomlTable& table, const Machine& machine) {
   return model;
 }
 
+// Where the tables of the controls are; the document says it of what is wrong with them.
+void find_places(const TomlDocument& document, const TomlTable& table, DynamicModel& model) {
+  const TomlTable axes = table.table("axis");
+  for (AxisModel& axis : model.axes) {
+    if (!axis.control) continue;
+    axes.table(std::string(1, to_char(axis.joint.letter)))
+        .fail("control", "unstable-control"_id, "here");
+    const Diagnostic place = document.finish().back();
+    axis.control->place = {place.file, place.line, place.column};
+  }
+}
+
 Result<std::optional<DynamicModel>> read_document(const TomlDocument& document,
                                                   const Machine& machine) {
   const TomlTable& root = document.root();
@@ -255,6 +267,7 @@ Result<std::optional<DynamicModel>> read_document(const TomlDocument& document,
     table->fail(loose->key, loose->problem);
     return document.finish();
   }
+  find_places(document, *table, model);
   return std::optional(std::move(model));
 }
 

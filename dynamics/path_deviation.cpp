@@ -109,14 +109,32 @@ class ChainDeviations {
   std::vector<TipDeviation> deviations_{};
 };
 
-ToolPose moved(const ToolPose& pose, const TipDeviation& deviation,
-               const Mat3& workpiece_from_table) {
-  const Vec3 turn = workpiece_from_table * deviation.turn;
-  return {pose.tip + workpiece_from_table * deviation.tip / kMetresPerMm,
-          (pose.axis + turn.cross(pose.axis)).normalized()};
+PoseDeviation in_workpiece(const TipDeviation& deviation, const Mat3& workpiece_from_table) {
+  return {workpiece_from_table * deviation.tip / kMetresPerMm,
+          workpiece_from_table * deviation.turn};
+}
+
+ToolPose moved(const ToolPose& pose, const PoseDeviation& deviation) {
+  return {pose.tip + deviation.tip, (pose.axis + deviation.turn.cross(pose.axis)).normalized()};
 }
 
 }  // namespace
+
+std::vector<PoseDeviation> pose_deviations(const DynamicModel& model,
+                                           const kinematics::Setup& setup, const ToolPath& path,
+                                           const PathDynamics& options) {
+  std::vector<PoseDeviation> found(path.poses.size());
+  if (options.method == PathMethod::off) return found;
+  const Mat3 workpiece_from_table = setup.table_from_workpiece.rotation.transpose();
+  for (const Chain& chain : chains_of(path)) {
+    const ChainDeviations deviations(model, path, chain, tool_length_of(setup, chain.tool),
+                                     options);
+    for (std::size_t i = chain.first; i <= chain.last; ++i) {
+      found[i] = in_workpiece(deviations.at(path.times[i]), workpiece_from_table);
+    }
+  }
+  return found;
+}
 
 ToolPath with_dynamics(const DynamicModel& model, const kinematics::Setup& setup, ToolPath path,
                        const PathDynamics& options) {
@@ -128,10 +146,12 @@ ToolPath with_dynamics(const DynamicModel& model, const kinematics::Setup& setup
     const ChainDeviations deviations(model, path, chain, tool_length_of(setup, chain.tool),
                                      options);
     const auto add = [&](std::size_t pose, double time, const AxisPositions& velocity) {
-      result.poses.push_back(moved(path.poses[pose], deviations.at(time), workpiece_from_table));
+      result.poses.push_back(
+          moved(path.poses[pose], in_workpiece(deviations.at(time), workpiece_from_table)));
       result.axes.push_back(path.axes[pose]);
       result.times.push_back(time);
       result.velocities.push_back(velocity);
+      result.shares.push_back(path.shares[pose]);
     };
     const auto go_on = [&](std::uint32_t block) {
       result.segments.push_back({static_cast<std::uint32_t>(result.poses.size() - 1), block});

@@ -27,6 +27,16 @@ struct PathDynamics {
   RenewalDistance renewal{};
 };
 
+// Of each pose of a path; mm and rad in the frame of the workpiece.
+struct PoseDeviation {
+  Vec3 tip = Vec3::Zero();
+  Vec3 turn = Vec3::Zero();
+};
+[[nodiscard]] std::vector<PoseDeviation> pose_deviations(const DynamicModel& model,
+                                                         const kinematics::Setup& setup,
+                                                         const kinematics::ToolPath& path,
+                                                         const PathDynamics& options);
+
 [[nodiscard]] kinematics::ToolPath with_dynamics(const DynamicModel& model,
                                                  const kinematics::Setup& setup,
                                                  kinematics::ToolPath path,

@@ -8,6 +8,7 @@
 #include "core/constants.hpp"
 #include "core/text_words.hpp"
 #include "core/whole_file.hpp"
+#include "dynamics/response_units.hpp"
 
 namespace frustum::dynamics {
 namespace {
@@ -108,61 +109,87 @@ std::optional<std::string> why_not_rising(const std::vector<double>& frequencies
   return std::nullopt;
 }
 
+// N and m for one of a file that labels no units: dataset 164 states by what SI is multiplied.
+struct FileUnits {
+  double length = 1.0;
+  double force = 1.0;
+};
+
+// A response, and the nodes between which it was measured.
+struct NodalResponse {
+  FrequencyResponse response{};
+  std::string nodes{};
+  int line = 0;
+};
+
 // One dataset 58, from the line after its number.
 class Dataset58 {
  public:
-  Dataset58(const std::vector<std::string_view>& lines, std::size_t first, const Place& place)
-      : lines_(lines), first_(first), place_(place) {}
+  Dataset58(const std::vector<std::string_view>& lines, std::size_t first, const Place& place,
+            const FileUnits& units)
+      : lines_(lines), first_(first), place_(place), units_(units) {}
 
-  [[nodiscard]] Result<FrequencyResponse> read() const {
-    if (first_ + kData > lines_.size()) return fault(0, "the dataset 58 ends too soon");
-    FrequencyResponse response;
-    const auto motion = direction(51), force = direction(76);
-    if (!motion || !force) {
-      return fault(kDirectionLine, "a direction of the response or reference is not X, Y or Z");
-    }
-    response.motion = std::abs(*motion) - 1;
-    response.force = std::abs(*force) - 1;
-    if (field(lines_[first_ + kDirectionLine], 0, 5) != "4") {
-      return fault(kDirectionLine, "the function is no frequency response (type 4)");
-    }
+  // Time signals, spectra and coherences are beside the responses in the same file, and so are
+  // rotations.
+  [[nodiscard]] std::optional<Diagnostic> missing() const {
+    if (first_ + kData <= lines_.size()) return std::nullopt;
+    return fault(0, "the dataset 58 ends too soon");
+  }
+  [[nodiscard]] bool is_response() const {
+    return field(lines_[first_ + kDirectionLine], 0, 5) == "4" && direction(51) && direction(76);
+  }
+
+  [[nodiscard]] Result<NodalResponse> read() const {
+    const int motion = *direction(51), force = *direction(76);
+    FrequencyResponse response{std::abs(motion) - 1, std::abs(force) - 1, {}, {}};
     auto values = numbers();
     if (!values) return values.error();
-    const auto order = order_of_derivative();
-    if (!order) {
-      return fault(kOrdinate,
-                   "the ordinate is no displacement, velocity or acceleration (8, 11, 12)");
+    const auto unit = motion_unit(type_of(kOrdinate), label_of(kOrdinate), units_.length);
+    if (!unit) {
+      return fault(kOrdinate, fmt::format("the ordinate of type {} in '{}' is no displacement, "
+                                          "velocity or acceleration in a unit that is known",
+                                          type_of(kOrdinate), label_of(kOrdinate)));
     }
-    const double sign = (*motion < 0) == (*force < 0) ? 1.0 : -1.0;
-    for (std::size_t i = 0; i < values->size(); ++i) {
-      const auto& [frequency, value] = (*values)[i];
-      const Complex derivative = std::pow(Complex(0.0, kTurn * frequency), *order);
+    const auto newton = force_unit(type_of(kDenominator), label_of(kDenominator), units_.force);
+    if (!newton) {
+      return fault(kDenominator,
+                   fmt::format("what the response is divided by, of type {} in '{}', is no force "
+                               "in a unit that is known",
+                               type_of(kDenominator), label_of(kDenominator)));
+    }
+    const double sign = (motion < 0) == (force < 0) ? 1.0 : -1.0;
+    for (const auto& [frequency, value] : *values) {
+      const Complex derivative = std::pow(Complex(0.0, kTurn * frequency), unit->order);
       if (derivative == 0.0) continue;  // a velocity at rest says nothing of the displacement
       response.frequencies.push_back(frequency);
-      response.compliance.push_back(sign * value / derivative);
+      response.compliance.push_back(sign * unit->si / *newton * value / derivative);
     }
     if (const auto why = why_not_rising(response.frequencies)) return fault(kData, *why);
-    return response;
+    return NodalResponse{std::move(response),
+                         fmt::format("{} and {}", field(lines_[first_ + kDirectionLine], 41, 10),
+                                     field(lines_[first_ + kDirectionLine], 66, 10)),
+                         static_cast<int>(first_ + kDirectionLine + 1)};
   }
 
  private:
   // Lines of the dataset.
-  static constexpr std::size_t kDirectionLine = 5, kForm = 6, kOrdinate = 8, kData = 11;
+  static constexpr std::size_t kDirectionLine = 5, kForm = 6, kOrdinate = 8, kDenominator = 9,
+                               kData = 11;
 
   [[nodiscard]] Diagnostic fault(std::size_t line, std::string message) const {
     return place_.fault(static_cast<int>(first_ + line + 1), std::move(message),
-                        "a universal file, dataset 58, of frequency responses in SI units");
+                        "a universal file, dataset 58, of frequency responses: m, mm, um, m/s, "
+                        "m/s^2 or g for N");
   }
   [[nodiscard]] std::optional<int> direction(std::size_t at) const {
     const auto value = number_in_word<int>(field(lines_[first_ + kDirectionLine], at, 4));
     return value && *value != 0 && std::abs(*value) <= 3 ? value : std::nullopt;
   }
-  [[nodiscard]] std::optional<int> order_of_derivative() const {
-    const std::string_view type = field(lines_[first_ + kOrdinate], 0, 10);
-    if (type == "8") return 0;
-    if (type == "11") return 1;
-    if (type == "12") return 2;
-    return std::nullopt;
+  [[nodiscard]] int type_of(std::size_t line) const {
+    return number_in_word<int>(field(lines_[first_ + line], 0, 10)).value_or(-1);
+  }
+  [[nodiscard]] std::string_view label_of(std::size_t line) const {
+    return field(lines_[first_ + line], 47, 20);
   }
 
   struct Line {
@@ -213,16 +240,63 @@ class Dataset58 {
   const std::vector<std::string_view>& lines_;
   std::size_t first_;
   const Place& place_;
+  FileUnits units_;
 };
 
+std::optional<FileUnits> units_in(const std::vector<std::string_view>& lines, std::size_t first) {
+  if (first + 1 >= lines.size()) return std::nullopt;
+  const auto length = number_of(field(lines[first + 1], 0, 25));
+  const auto force = number_of(field(lines[first + 1], 25, 25));
+  if (!length || !force || !(*length > 0.0) || !(*force > 0.0)) return std::nullopt;
+  return FileUnits{1.0 / *length, 1.0 / *force};
+}
+
 Result<Responses> read_universal(const std::vector<std::string_view>& lines, const Place& place) {
-  Responses responses;
+  FileUnits units;
+  std::vector<NodalResponse> found;
+  int others = 0, binary = 0;
   for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
-    if (trimmed(lines[i]) != "-1" || trimmed(lines[i + 1]) != "58") continue;
-    auto response = Dataset58(lines, i + 2, place).read();
+    if (trimmed(lines[i]) != "-1") continue;
+    const std::string_view number = trimmed(lines[i + 1]);
+    if (number.starts_with("58b")) ++binary;
+    if (number == "164") {
+      const auto stated = units_in(lines, i + 2);
+      if (!stated) {
+        return place.fault(static_cast<int>(i + 4), "the dataset 164 states no units",
+                           "two numbers above 0 by which m and N are multiplied");
+      }
+      units = *stated;
+    }
+    if (number != "58") continue;
+    const Dataset58 dataset(lines, i + 2, place, units);
+    if (auto problem = dataset.missing()) return *std::move(problem);
+    if (!dataset.is_response()) {
+      ++others;
+      continue;
+    }
+    auto response = dataset.read();
     if (!response) return response.error();
-    responses.push_back(*std::move(response));
+    found.push_back(*std::move(response));
   }
+  if (found.empty() && others + binary > 0) {
+    return place.fault(
+        0,
+        fmt::format("there is no frequency response in this file, but {} of another function or "
+                    "without directions X, Y, Z, and {} in binary",
+                    others, binary),
+        "export frequency responses (type 4) as text, dataset 58");
+  }
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (found[k].response.name() != found[i].response.name()) continue;
+      return place.fault(found[i].line,
+                         fmt::format("{} is there twice, of the nodes {} and of the nodes {}",
+                                     found[i].response.name(), found[k].nodes, found[i].nodes),
+                         "keep the responses of the tip alone");
+    }
+  }
+  Responses responses;
+  for (NodalResponse& each : found) responses.push_back(std::move(each.response));
   return responses;
 }
 

@@ -1,9 +1,12 @@
 // Frequency responses as files: universal files of modal-test programs (dataset 58), and CSV.
 //
 // Units  : compliance in m/N; in CSV um/N under frequency_hz,Gxx_re,Gxx_im,.. (motion, then force);
-//          in universal files SI, displacement, velocity or acceleration for force
+//          in universal files SI as written; read are displacement, velocity or acceleration for
+//          force in the units of their labels, without labels in those of dataset 164, or SI. Other
+//          functions beside them are passed over
 // Errors : of a file that is read, with its line: no response in it, fields that are no numbers,
-//          other quantities, directions that are not X, Y or Z, frequencies that do not rise
+//          units that are unknown, two responses of the same directions, frequencies that do not
+//          rise
 // Source : Universal File Format 58, University of Cincinnati SDRL
 #pragma once
 

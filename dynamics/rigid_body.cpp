@@ -76,6 +76,26 @@ double volume_of(const SolidShape& shape) {
   return std::visit([](const auto& s) { return volume(s); }, shape);
 }
 
+bool crosses_itself(const SolidPrism& prism) {
+  const auto& corners = prism.outline;
+  const std::size_t n = corners.size();
+  const auto side = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                       const Eigen::Vector2d& p) {
+    const Eigen::Vector2d u = b - a, v = p - a;
+    const double area = u.x() * v.y() - u.y() * v.x();
+    return area > 0.0 ? 1 : (area < 0.0 ? -1 : 0);
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = i + 2; k < n; ++k) {
+      if (i == 0 && k + 1 == n) continue;  // neighbours
+      const auto &a = corners[i], &b = corners[i + 1];
+      const auto &c = corners[k], &d = corners[(k + 1) % n];
+      if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0) return true;
+    }
+  }
+  return false;
+}
+
 RigidBody body_of(std::span<const Solid> solids) {
   RigidBody body{0.0, Vec3::Zero(), Mat3::Zero()};
   std::vector<RigidBody> parts;
@@ -100,6 +120,9 @@ std::optional<std::string> impossible_inertia(const Mat3& inertia) {
       fmt::format("its principal moments are {:.6g}, {:.6g} and {:.6g} kg m^2", moments[0],
                   moments[1], moments[2]);
   if (!(moments[0] > 0.0)) return named + ", and all must be above 0";
+  // Of a rod a thousand times as long as thick 1e-6.
+  constexpr double kThinnest = 1e-9;
+  if (moments[0] < kThinnest * moments[2]) return named + ", which is a line without thickness";
   // A thin plate has the sum itself, but for the digits in which it is written.
   constexpr double kWrittenDigits = 1e-9;
   if (moments[2] > (moments[0] + moments[1]) * (1.0 + kWrittenDigits)) {

@@ -43,6 +43,8 @@ struct SolidPrism {
 using SolidShape = std::variant<SolidBox, SolidCylinder, SolidPrism>;
 
 [[nodiscard]] double volume_of(const SolidShape& shape);  // m^3
+// Two sides of its outline that are not neighbours meet.
+[[nodiscard]] bool crosses_itself(const SolidPrism& prism);
 
 struct Solid {
   SolidShape shape{};

@@ -231,6 +231,10 @@ std::optional<Diagnostic> instability(const DynamicModel& model, const ServoSyst
                   sum > 0.0 ? 100.0 * most / sum : 100.0),
       "lower kv or kp, raise tn, or damp the mode");
   problem.key = fmt::format("dynamics.axis.{}.control", axis);
+  const Control::Place& place = to_blame->control.place;
+  problem.file = place.file;
+  problem.line = place.line;
+  problem.column = place.column;
   return problem;
 }
 

@@ -19,10 +19,10 @@ double step_of(const Parameter& parameter, const DifferenceSteps& steps) {
   return parameter.angular ? steps.angle : steps.length;
 }
 
-TrialOptions quiet(double path_bound) {
-  TrialOptions options;
-  options.path_bound = path_bound;
+TrialOptions quiet(TrialOptions options) {
   options.find_collisions = false;
+  options.measure = true;
+  options.on_stage = {};
   return options;
 }
 
@@ -30,8 +30,8 @@ TrialOptions quiet(double path_bound) {
 // else would be of no use to anybody.
 Result<Trial> clean_trial(const Machine& machine, const GeometricErrors& errors,
                           const TestPiece& piece, const CommandedPiece& commanded,
-                          double path_bound) {
-  auto trial = run_trial(machine, errors, piece, commanded, {}, quiet(path_bound));
+                          const TrialOptions& options) {
+  auto trial = run_trial(machine, errors, piece, commanded, {}, quiet(options));
   if (!trial || trial->wrong_cuts.empty()) return trial;
   Diagnostics wrong = std::move(trial->wrong_cuts);
   for (Diagnostic& d : wrong) d.severity = Severity::error;
@@ -85,13 +85,13 @@ void set_column(Sensitivity& s, Eigen::Index column, double step, const Eigen::V
 // The machine or the tools with one parameter raised by `amount`.
 Result<Trial> varied_trial(const Machine& machine, const GeometricErrors& errors,
                            const TestPiece& piece, const CommandedPiece& commanded,
-                           const Parameter& parameter, double amount, double path_bound) {
+                           const Parameter& parameter, double amount, const TrialOptions& options) {
   if (parameter.unit) {
-    return clean_trial(machine, errors.plus(*parameter.unit, amount), piece, commanded, path_bound);
+    return clean_trial(machine, errors.plus(*parameter.unit, amount), piece, commanded, options);
   }
   TestPiece varied = piece;
   for (auto& [number, tool] : varied.tools) tool.radius_error.value += amount;
-  return clean_trial(machine, errors, varied, commanded, path_bound);
+  return clean_trial(machine, errors, varied, commanded, options);
 }
 
 }  // namespace
@@ -107,16 +107,17 @@ Eigen::VectorXd values_of(const metrology::Measurement& measurement) {
 
 Result<Sensitivity> sensitivity(const Machine& machine, const GeometricErrors& errors,
                                 const TestPiece& piece, std::span<const Parameter> parameters,
-                                double path_bound) {
+                                const TrialOptions& options) {
   const auto commanded = command_piece(machine, piece);
   if (!commanded) return commanded.error();
-  return sensitivity(machine, errors, piece, *commanded, parameters, path_bound);
+  return sensitivity(machine, errors, piece, *commanded, parameters, options);
 }
 
 Result<Sensitivity> sensitivity(const Machine& machine, const GeometricErrors& errors,
                                 const TestPiece& piece, const CommandedPiece& commanded,
-                                std::span<const Parameter> parameters, double path_bound) {
-  const auto trial = clean_trial(machine, errors, piece, commanded, path_bound);
+                                std::span<const Parameter> parameters,
+                                const TrialOptions& options) {
+  const auto trial = clean_trial(machine, errors, piece, commanded, options);
   if (!trial) return trial.error();
   const auto gains = surface_gains(machine, piece, *trial, parameters);
   if (!gains) return gains.error();
@@ -140,20 +141,21 @@ Result<Sensitivity> sensitivity_by_differences(const Machine& machine,
                                                const GeometricErrors& errors,
                                                const TestPiece& piece,
                                                std::span<const Parameter> parameters,
-                                               const DifferenceSteps& steps, double path_bound) {
+                                               const DifferenceSteps& steps,
+                                               const TrialOptions& options) {
   const auto commanded = command_piece(machine, piece);
   if (!commanded) return commanded.error();
-  const auto trial = clean_trial(machine, errors, piece, *commanded, path_bound);
+  const auto trial = clean_trial(machine, errors, piece, *commanded, options);
   if (!trial) return trial.error();
   const Eigen::VectorXd centre = values_of(trial->measurement);
   Sensitivity s = empty_for(trial->measurement, parameters);
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const double step = step_of(parameters[k], steps);
     const auto plus =
-        varied_trial(machine, errors, piece, *commanded, parameters[k], step, path_bound);
+        varied_trial(machine, errors, piece, *commanded, parameters[k], step, options);
     if (!plus) return plus.error();
     const auto minus =
-        varied_trial(machine, errors, piece, *commanded, parameters[k], -step, path_bound);
+        varied_trial(machine, errors, piece, *commanded, parameters[k], -step, options);
     if (!minus) return minus.error();
     set_column(s, static_cast<Eigen::Index>(k), step, values_of(plus->measurement),
                values_of(minus->measurement), centre);

@@ -1,6 +1,7 @@
 // Derivatives of every characteristic of a test piece to machine errors and to the tool radius.
 //
-// Model    : the piece is cut and measured by a noise-free CMM with the errors given. About that
+// Model    : the piece is cut and measured by a noise-free CMM with the errors given, and with the
+//            lag and the dynamic deviation that the options ask for. About that
 //            trial a characteristic answers a parameter e by  odd e + even |e|. Two independent
 //            ways:
 //              analytic     every measured point is moved by its gain (surface_gain.hpp) and the
@@ -43,14 +44,14 @@ struct Sensitivity {
                                               const kinematics::GeometricErrors& errors,
                                               const programs::TestPiece& piece,
                                               std::span<const Parameter> parameters,
-                                              double path_bound = 1e-5);
+                                              const TrialOptions& options = {});
 // Of a piece that has been commanded before (trial.hpp).
 [[nodiscard]] Result<Sensitivity> sensitivity(const kinematics::Machine& machine,
                                               const kinematics::GeometricErrors& errors,
                                               const programs::TestPiece& piece,
                                               const CommandedPiece& commanded,
                                               std::span<const Parameter> parameters,
-                                              double path_bound = 1e-5);
+                                              const TrialOptions& options = {});
 
 struct DifferenceSteps {
   double length = 1e-3;  // mm
@@ -59,7 +60,7 @@ struct DifferenceSteps {
 [[nodiscard]] Result<Sensitivity> sensitivity_by_differences(
     const kinematics::Machine& machine, const kinematics::GeometricErrors& errors,
     const programs::TestPiece& piece, std::span<const Parameter> parameters,
-    const DifferenceSteps& steps = {}, double path_bound = 1e-5);
+    const DifferenceSteps& steps = {}, const TrialOptions& options = {});
 
 // Values of all characteristics in mm and rad.
 [[nodiscard]] Eigen::VectorXd values_of(const metrology::Measurement& measurement);

@@ -12,7 +12,6 @@
 #include "kinematics/controller/controller.hpp"
 #include "kinematics/controller/source_lines.hpp"
 #include "kinematics/errors/error_size.hpp"
-#include "kinematics/path/travel.hpp"
 #include "parser/doubts.hpp"
 #include "parser/interpreter.hpp"
 #include "trials/cut_check.hpp"
@@ -153,6 +152,30 @@ std::optional<Diagnostic> unstable_control(const TrialOptions& options,
 
 }  // namespace
 
+Result<kinematics::Travel> still_travel(const Machine& machine, const GeometricErrors& errors,
+                                        const kinematics::Setup& setup,
+                                        const kinematics::CommandedProgram& program,
+                                        const TrialOptions& options) {
+  if (auto unstable = unstable_control(options, program)) return *std::move(unstable);
+  return kinematics::travel(
+      machine, setup, program, errors,
+      {.path_bound = options.path_bound,
+       .time_law = options.time_law,
+       .servo_lag = options.servo_lag,
+       .time_step = options.has_dynamics() ? options.dynamics.time_step : 0.0});
+}
+
+Result<kinematics::Travel> tool_travel(const Machine& machine, const GeometricErrors& errors,
+                                       const kinematics::Setup& setup,
+                                       const kinematics::CommandedProgram& program,
+                                       const TrialOptions& options) {
+  auto travel = still_travel(machine, errors, setup, program, options);
+  if (!travel || !options.has_dynamics()) return travel;
+  travel->path =
+      with_dynamics(*options.dynamic_model, setup, std::move(travel->path), options.dynamics);
+  return travel;
+}
+
 Result<CommandedPiece> command_piece(const Machine& machine, const TestPiece& piece,
                                      const std::function<void(Stage)>& on_stage) {
   begin(on_stage, Stage::parse);
@@ -188,18 +211,9 @@ Result<Trial> run_trial(const Machine& machine, const GeometricErrors& errors,
                         const metrology::CmmModel& cmm, const TrialOptions& options) {
   const Diagnostics oversize = oversize_in(machine, errors, commanded.program);
   if (has_error(oversize)) return oversize;
-  if (auto unstable = unstable_control(options, commanded.program)) return *std::move(unstable);
-  const kinematics::Setup setup = setup_of(piece);
-  auto travel =
-      kinematics::travel(machine, setup, commanded.program, errors,
-                         {.path_bound = options.path_bound,
-                          .time_law = options.time_law,
-                          .servo_lag = options.servo_lag,
-                          .time_step = options.has_dynamics() ? options.dynamics.time_step : 0.0});
-  if (options.has_dynamics()) {
-    travel.path =
-        with_dynamics(*options.dynamic_model, setup, std::move(travel.path), options.dynamics);
-  }
+  auto travelled = tool_travel(machine, errors, setup_of(piece), commanded.program, options);
+  if (!travelled) return travelled.error();
+  kinematics::Travel travel = *std::move(travelled);
   Trial trial;
   trial.operations = commanded.operations;
   trial.warnings = commanded.warnings;

@@ -22,6 +22,7 @@
 #include "kinematics/model/geometric_errors.hpp"
 #include "kinematics/model/machine.hpp"
 #include "kinematics/path/slowed_blocks.hpp"
+#include "kinematics/path/travel.hpp"
 #include "kinematics/timing/time_law.hpp"
 #include "metrology/cmm.hpp"
 #include "metrology/measurement.hpp"
@@ -83,6 +84,20 @@ struct TrialOptions {
   // Called when a stage begins; for progress bars and clocks, which are above this room.
   std::function<void(Stage)> on_stage{};
 };
+
+// Where the tool goes: with the errors and the lag that the options ask for, and poses for their
+// dynamics.
+[[nodiscard]] Result<kinematics::Travel> still_travel(const kinematics::Machine& machine,
+                                                      const kinematics::GeometricErrors& errors,
+                                                      const kinematics::Setup& setup,
+                                                      const kinematics::CommandedProgram& program,
+                                                      const TrialOptions& options);
+// The same with the dynamic deviation.
+[[nodiscard]] Result<kinematics::Travel> tool_travel(const kinematics::Machine& machine,
+                                                     const kinematics::GeometricErrors& errors,
+                                                     const kinematics::Setup& setup,
+                                                     const kinematics::CommandedProgram& program,
+                                                     const TrialOptions& options);
 
 // The tools as programs call them: names, and the diameters that radius compensation counts with.
 // The lengths are the setup's.

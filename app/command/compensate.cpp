@@ -11,6 +11,7 @@
 #include "app/command/commands.hpp"
 #include "app/job/compensated_job.hpp"
 #include "app/job/job.hpp"
+#include "app/job/trial_run.hpp"
 #include "app/view/console.hpp"
 #include "calibration/compensate/compensated_piece.hpp"
 #include "core/file_set.hpp"
@@ -87,6 +88,13 @@ Result<std::vector<fs::path>> write_compensated(const Job& job, programs::TestPi
   return files;
 }
 
+// Lag alone makes the tool late, which is no error of its path.
+trials::TrialOptions run_of(const Job& job) {
+  trials::TrialOptions run = path_options_of(job);
+  if (!run.has_dynamics()) run.servo_lag = false;
+  return run;
+}
+
 int compensate(const CompensateOptions& options) {
   const auto job = load_job(options.job, options.overrides, false);
   if (!job) return refuse(job.error(), options);
@@ -106,7 +114,8 @@ int compensate(const CompensateOptions& options) {
       options.dialect.empty() ? std::nullopt : parser::dialect_named(options.dialect);
   auto made = with_progress(options, "compensate", [&](report::Progress&) {
     return calibration::compensated_piece(job->machine, *errors, job->piece, *commanded,
-                                          {.bound = options.bound / kUmPerMm}, dialect);
+                                          {.bound = options.bound / kUmPerMm, .run = run_of(*job)},
+                                          dialect);
   });
   if (!made) return refuse(made.error(), options);
   const auto files = write_compensated(*job, made->piece, options.out);

@@ -71,7 +71,13 @@ Result<Measured> read_measured(const DynamicsOptions& options, const dynamics::D
   auto responses = dynamics::load_responses(options.measured);
   if (!responses) return responses.error();
   Measured found{*std::move(responses), std::nullopt};
-  if (options.identify.empty()) return found;
+  if (options.identify.empty()) {
+    if (!options.out.empty() && !request.frequencies.empty()) return found;
+    return error(
+        "missing-option"_id,
+        "--measured is drawn into the page of --out with --frf, or explained by --identify",
+        "for example --out DIR --frf 1:200");
+  }
   std::vector<std::string> names;
   std::istringstream in(options.identify);
   for (std::string name; std::getline(in, name, ',');) names.push_back(name);

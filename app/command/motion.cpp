@@ -68,6 +68,16 @@ void add_stroke_option(Command& command, MotionWords& words) {
   command.option("--stroke", words.stroke, "Of the bar to either side, mm (default 1)");
 }
 
+// Of a test that is read at rest without them.
+void add_run_options(Command& command, MotionWords& words, const char* feed) {
+  command.option("--feed", words.feed, feed);
+  command.option("--dynamics", words.dynamics,
+                 "quasi_static or linear: masses and springs of the machine move the tip while the "
+                 "test is run at the feed (default: off)");
+  command.flag("--jerk", words.jerk, "The time law of that run limits jerk, too");
+}
+constexpr const char* kFeedOfTheTip = "mm/min of the tip, for --dynamics";
+
 // A test whose words become an answer, and a file by which it can be run again.
 template <typename Words>
 void runs_test(Command& command, const std::shared_ptr<Words>& words) {
@@ -122,6 +132,7 @@ void add_rotary(Command& tests) {
   command.option("--at", words->at, "\"A=-90\": the other rotary axes, degrees (default 0)");
   command.option("--angles", words->angles,
                  "0,30,60: degrees (default: 3600 midpoints of a full turn or of the travel)");
+  add_run_options(command, *words, "deg/min of the axis, for --dynamics");
   command.footer(
       "Example: frustum motion rotary --machine zx-yac --axis C --direction radial --ball "
       "100,0,100 --length 150 --error EX0C=10um");
@@ -143,6 +154,7 @@ void add_cone_motion(Command& tests) {
                  "normal: along the surface normal (default); radial: in the plane of the path");
   command.option("--angles", words->angles,
                  "0,30,60: phi, degrees (default: 3600 midpoints of a full turn)");
+  add_run_options(command, *words, kFeedOfTheTip);
   command.footer(
       "Example: frustum motion cone --machine iwf-bc --cone-angle 45 --inclination 30 --radius 40 "
       "--center=-65,0,150 --sense normal --error EX0C=10um");
@@ -156,6 +168,7 @@ void add_chase(Command& tests) {
   command.option("--ball", words->ball, "x,y,z of the table ball in the table frame, mm")
       .required();
   command.option("--at", words->at, "\"A=-90,C=0;A=0,C=60\": rotary poses, degrees").required();
+  add_run_options(command, *words, "deg/min from pose to pose, for --dynamics");
   command.footer(
       "Example: frustum motion chase --machine zx-yac --ball 100,0,100 --at \"A=-90,C=0;A=0,C=60\" "
       "--error EX0C=10um");
@@ -171,6 +184,7 @@ void add_line(Command& tests) {
   command.option("--targets", words->targets, "0,37,75: positions of the axis, mm").required();
   command.option("--runs", words->runs, "In each direction (default 5)").within(2, 1000);
   command.option("--at", words->at, "\"Y=100,Z=50\": the other axes, mm and degrees (default 0)");
+  add_run_options(command, *words, kFeedOfTheTip);
   command.footer(
       "Example: frustum motion line --machine zx-yac --axis X --targets=-180,-97,-31,42,111,178 "
       "--error \"EXX=linear 10um + reversal 3um\"");
@@ -185,6 +199,7 @@ void add_diagonal(Command& tests) {
       .required();
   command.option("--points", words->points, "On each diagonal (default 11)").within(2, 100000);
   command.option("--at", words->at, "\"Z=50,B=30\": the other axes, mm and degrees (default 0)");
+  add_run_options(command, *words, kFeedOfTheTip);
   command.footer(
       "Example: frustum motion diagonal --machine iwf-bc --box \"X=-200:200,Y=-150:150,Z=0:300\" "
       "--error EC0Y=20urad");

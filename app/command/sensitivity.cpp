@@ -7,6 +7,7 @@
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
 #include "app/job/job.hpp"
+#include "app/job/trial_run.hpp"
 #include "app/view/console.hpp"
 #include "app/view/sensitivity_view.hpp"
 #include "core/file_set.hpp"
@@ -40,13 +41,13 @@ Result<trials::Sensitivity> derivatives(const SensitivityOptions& options, const
                    "add --method differences, or leave them out");
     }
     return trials::sensitivity(job.machine, *errors, job.piece, *commanded, *parameters,
-                               job.path_bound);
+                               path_options_of(job));
   }
   trials::DifferenceSteps steps;
   if (options.step_um) steps.length = *options.step_um / kUmPerMm;
   if (options.step_urad) steps.angle = *options.step_urad / kUradPerRad;
   return trials::sensitivity_by_differences(job.machine, *errors, job.piece, *parameters, steps,
-                                            job.path_bound);
+                                            path_options_of(job));
 }
 
 int show_sensitivity(const SensitivityOptions& options) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <tuple>
 
 #include "app/job/axis_words.hpp"
 #include "app/job/number_list.hpp"
@@ -184,7 +185,7 @@ Result<WorkspaceMapRequest> read_map(const DynamicModel& model, const DynamicsWo
     return error("given-twice"_id,
                  fmt::format("--map: axis {} is given twice", to_char(rows->letter)));
   }
-  const auto quantity = read_quantity(model, words.quantity);
+  const auto quantity = read_quantity(model, words.quantity.empty() ? "Hx/x" : words.quantity);
   if (!quantity) return quantity.error();
   return WorkspaceMapRequest{*rows, *columns, quantity->quantity, quantity->title};
 }
@@ -265,6 +266,15 @@ Result<DynamicsRequest> read_dynamics_request(const Machine& machine, const Dyna
   const auto frequencies = read_frequencies(model, words.frequencies);
   if (!frequencies) return frequencies.error();
   request.frequencies = *frequencies;
+  for (const auto& [given, option, needed, needs] :
+       {std::tuple{!words.quantity.empty(), "--quantity", "--map", words.map.empty()},
+        std::tuple{words.radius.has_value(), "--radius", "--circle", words.circle.empty()},
+        std::tuple{words.feed.has_value(), "--feed", "--circle", words.circle.empty()}}) {
+    if (given && needs) {
+      return error("missing-option"_id, fmt::format("{} is of {}", option, needed),
+                   fmt::format("add {}, or leave {} out", needed, option));
+    }
+  }
   if (!words.rates.empty()) {
     auto rates = read_rates(model, words.rates);
     if (!rates) return rates.error();

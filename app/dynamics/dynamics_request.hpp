@@ -28,8 +28,8 @@ struct DynamicsWords {
   std::string frequencies{};  // "20,57", "1:200", "1:200:0.5"
   std::string rates{};        // "X=0.1:1,B=-1.5:3"
   std::string map{};          // "Y=-300:300:20,Z=-100:500:20"
-  std::string quantity = "Hx/x";
-  std::string circle{};  // "XY"
+  std::string quantity{};     // empty: "Hx/x"
+  std::string circle{};       // "XY"
   std::optional<double> radius{}, feed{};
   std::string move{};  // "X:100:0.5:4:100"
 };

@@ -6,7 +6,7 @@ namespace frustum::app {
 
 namespace {
 
-dynamics::PathDynamics read_dynamics(const TomlTable& table, bool servo_lag) {
+dynamics::PathDynamics read_dynamics(const TomlTable& table) {
   dynamics::PathDynamics settings;
   settings.method = static_cast<dynamics::PathMethod>(
       table.choice_or("dynamics", {"off", "quasi_static", "linear"}, 0));
@@ -28,11 +28,6 @@ dynamics::PathDynamics read_dynamics(const TomlTable& table, bool servo_lag) {
         "0.0005 is half a millisecond");
     settings.time_step = kLongest;
   }
-  if (settings.method != dynamics::PathMethod::off && servo_lag) {
-    table.fail("servo_lag", "conflicting-keys"_id,
-               "servo_lag and dynamics are two models of the same drives",
-               "remove one of them; a control of [dynamics.axis.X.control] lags, too");
-  }
   return settings;
 }
 
@@ -51,7 +46,7 @@ ControllerSettings read_controller(const TomlTable& job) {
   law.rotary_rapid = kRadPerDeg * table->number_or("default_rotary_rapid",
                                                    law.rotary_rapid * kDegPerRad, Bound::positive);
   settings.servo_lag = table->boolean_or("servo_lag", settings.servo_lag);
-  settings.dynamics = read_dynamics(*table, settings.servo_lag);
+  settings.dynamics = read_dynamics(*table);
   if (law.jerk && !law.limits) {
     table->fail("jerk", "jerk limits need the time law", "remove time_law = false");
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "app/job/trial_run.hpp"
 #include "calibration/design/step_geometry.hpp"
 #include "calibration/identify/refinement.hpp"
 #include "trials/trial.hpp"
@@ -54,7 +55,7 @@ Result<std::vector<MeasuredPiece>> pieces_of(const Study& study) {
                         *base,
                         part.measured,
                         study.cmm,
-                        job.path_bound,
+                        path_options_of(job),
                         std::make_shared<const trials::CommandedPiece>(*std::move(commanded))};
     if (!piece.cmm && job.cmm.e0_mm > 0.0) piece.cmm = job.cmm;
     pieces.push_back(std::move(piece));

@@ -243,6 +243,7 @@ void check_error_names(const TomlTable& root, const kinematics::Machine& machine
 
 // Of a job that asks for it.
 std::shared_ptr<const dynamics::DynamicModel> load_dynamics(const TomlTable& root,
+                                                            const ControllerSettings& controller,
                                                             const kinematics::Machine& machine,
                                                             const fs::path& machine_file,
                                                             Diagnostics& problems) {
@@ -251,6 +252,12 @@ std::shared_ptr<const dynamics::DynamicModel> load_dynamics(const TomlTable& roo
     problems.insert(problems.end(), model.error().begin(), model.error().end());
   } else if (!*model) {
     root.table("controller").fail("dynamics", dynamics::no_dynamics(machine, machine_file));
+  } else if (controller.servo_lag && (*model)->is_controlled()) {
+    root.table("controller")
+        .fail("servo_lag", "conflicting-keys"_id,
+              fmt::format("the controls of [dynamics.axis] of machine {} lag themselves",
+                          machine.name()),
+              "remove servo_lag, or the control tables of the machine");
   } else {
     return std::make_shared<const dynamics::DynamicModel>(**std::move(model));
   }
@@ -319,7 +326,7 @@ Result<Job> load_job(const fs::path& file, const JobOverrides& overrides, bool w
   }
   std::shared_ptr<const dynamics::DynamicModel> dynamic_model;
   if (machine && controller.dynamics.method != dynamics::PathMethod::off) {
-    dynamic_model = load_dynamics(root, *machine, *machine_file, problems);
+    dynamic_model = load_dynamics(root, controller, *machine, *machine_file, problems);
   }
   std::vector<kinematics::ErrorEntry> errors;
   if (machine) {

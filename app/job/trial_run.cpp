@@ -12,15 +12,26 @@ double now() {
 
 }  // namespace
 
-TrialRun::TrialRun(report::ProgressStyle style) : progress_(std::cerr, style) {}
-
-Result<trials::Trial> TrialRun::trial(const Job& job, bool measure) {
+trials::TrialOptions trial_options_of(const Job& job) {
   trials::TrialOptions options;
   options.path_bound = job.path_bound;
   options.time_law = job.controller.time_law;
   options.servo_lag = job.controller.servo_lag;
   options.dynamic_model = job.dynamic_model;
   options.dynamics = job.controller.dynamics;
+  return options;
+}
+
+trials::TrialOptions path_options_of(const Job& job) {
+  trials::TrialOptions options = trial_options_of(job);
+  if (!options.servo_lag && !options.has_dynamics()) options.time_law = {.limits = false};
+  return options;
+}
+
+TrialRun::TrialRun(report::ProgressStyle style) : progress_(std::cerr, style) {}
+
+Result<trials::Trial> TrialRun::trial(const Job& job, bool measure) {
+  trials::TrialOptions options = trial_options_of(job);
   options.measure = measure;
   options.on_stage = [this](trials::Stage stage) { begin(std::string(name_of(stage))); };
   auto result = run_trial(job.machine, job.errors, job.piece, job.cmm, options);

@@ -12,6 +12,11 @@
 
 namespace frustum::app {
 
+// All that a job says of a trial.
+[[nodiscard]] trials::TrialOptions trial_options_of(const Job& job);
+// The same path, without the limits of the time law where it does not depend on them.
+[[nodiscard]] trials::TrialOptions path_options_of(const Job& job);
+
 class TrialRun {
  public:
   explicit TrialRun(report::ProgressStyle style);

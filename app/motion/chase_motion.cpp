@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/motion/motion_dynamics.hpp"
 #include "app/view/text_table.hpp"
 #include "core/decimal.hpp"
 #include "instruments/approach.hpp"
 #include "instruments/chase_test.hpp"
 #include "instruments/readings.hpp"
+#include "kinematics/model/inverse.hpp"
 
 namespace frustum::app {
 namespace {
@@ -67,6 +69,40 @@ void draw_vectors(MotionAnswer& answer, const std::vector<instruments::TestPose>
   answer.page.tables.push_back(std::move(table));
 }
 
+// The rotary axes go evenly from pose to pose, and the linear ones keep the tip at the ball.
+Result<std::vector<Vec3>> moved_by(const ChaseWords& words, const MotionSetup& setup,
+                                   const instruments::MotionTest& test,
+                                   const std::optional<double>& feed) {
+  instruments::MotionTest run = test;
+  std::vector<double> ways{0.0};  // rad
+  for (std::size_t i = 1; i < run.poses.size(); ++i) {
+    double turn = 0.0;
+    for (const auto letter : kinematics::kRotaryAxes) {
+      turn = std::hypot(turn, run.poses[i].at.q[letter] - run.poses[i - 1].at.q[letter]);
+    }
+    ways.push_back(ways.back() + turn);
+  }
+  for (std::size_t i = 0; i < ways.size(); ++i) run.poses[i].parameter = ways[i];
+  if (words.dynamics != "off" && !(ways.back() > 0.0)) {
+    return error("no-motion"_id, "--dynamics needs poses between which a rotary axis turns",
+                 "for example --at \"C=0;C=90\"");
+  }
+  const auto axes = [&](double way) {
+    const auto after = std::ranges::upper_bound(ways, way);
+    const std::size_t k =
+        std::clamp<std::size_t>(static_cast<std::size_t>(after - ways.begin()), 1, ways.size() - 1);
+    const double length = ways[k] - ways[k - 1];
+    const double share = length > 0.0 ? std::clamp((way - ways[k - 1]) / length, 0.0, 1.0) : 1.0;
+    kinematics::AxisPositions rotary;
+    for (const auto letter : kinematics::kRotaryAxes) {
+      rotary[letter] = std::lerp(test.poses[k - 1].at.q[letter], test.poses[k].at.q[letter], share);
+    }
+    return place_tip(setup.machine, test.table_ball, test.tool_length, rotary);
+  };
+  if (ways.size() > 1) run.motion = {axes, 0.0, ways.back()};
+  return deviations_of(words, setup, run, feed, kRadPerDeg, ways);
+}
+
 }  // namespace
 
 Result<MotionAnswer> chase_answer(const ChaseWords& words) {
@@ -79,13 +115,18 @@ Result<MotionAnswer> chase_answer(const ChaseWords& words) {
   const auto test = instruments::chase_test(setup->machine, {*ball, *poses, setup->tool_length});
   if (!test) return test.error();
   const kinematics::ForwardChain actual(setup->machine, setup->errors, setup->tool_length);
-  const auto vectors = instruments::shown(
-      setup->instrument,
-      instruments::displacements(actual, instruments::with_approach(*test, setup->errors).poses,
-                                 setup->setup),
-      0);
+  const auto feed = feed_per_second(words);
+  if (!feed) return feed.error();
+  const auto moved = moved_by(words, *setup, *test, *feed);
+  if (!moved) return moved.error();
+  auto seen = instruments::displacements(
+      actual, instruments::with_approach(*test, setup->errors).poses, setup->setup);
+  for (std::size_t i = 0; i < moved->size(); ++i) seen[i] += (*moved)[i];
+  const auto vectors = instruments::shown(setup->instrument, std::move(seen), 0);
   MotionAnswer answer = answer_of("chase", "R-test", *setup);
   answer.document["table_ball_mm"] = coordinates(*ball);
+  if (*feed) answer.document["feed_deg_min"] = *words.feed;
+  if (!moved->empty()) answer.document["dynamics"] = words.dynamics;
   Lists list;
   double squares = 0.0;
   for (const Vec3& each : vectors) {

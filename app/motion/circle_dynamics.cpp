@@ -4,23 +4,10 @@
 #include <cmath>
 
 #include "core/constants.hpp"
-#include "dynamics/model_file.hpp"
-#include "dynamics/servo.hpp"
 
 namespace frustum::app {
 
 using dynamics::PathMethod;
-
-Result<dynamics::DynamicModel> dynamics_of_circle(const std::filesystem::path& machine_file,
-                                                  const kinematics::Machine& machine,
-                                                  const instruments::CircleTest& circle) {
-  auto model = dynamics::load_model(machine_file, machine);
-  if (!model) return model.error();
-  if (!*model) return dynamics::no_dynamics(machine, machine_file);
-  const auto servo = servo_system(**model, circle.held, circle.tool_length);
-  if (auto unstable = instability(**model, servo)) return *std::move(unstable);
-  return **std::move(model);
-}
 
 std::vector<Vec3> circle_deviations(const dynamics::DynamicModel& model, PathMethod method,
                                     const instruments::CircleTest& circle,

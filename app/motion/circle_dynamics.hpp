@@ -4,23 +4,17 @@
 //            away; the deviation of dynamics/path_response.hpp at each angle
 // Units    : mm, rad, mm/s; frame: table
 // Shape    : a deviation for each angle of the circle
-// Errors   : a machine without [dynamics], or whose control is unstable
+// Errors   : none: motion_dynamics.hpp has looked for them
 // Accuracy : that of path_response.hpp (tests/app/motion_dynamics_test.cpp)
 // Source   : ISO 230-4 circular deviations of the moving machine
 #pragma once
 
-#include <filesystem>
 #include <vector>
 
-#include "core/result.hpp"
 #include "dynamics/path_deviation.hpp"
 #include "instruments/circle_test.hpp"
 
 namespace frustum::app {
-
-[[nodiscard]] Result<dynamics::DynamicModel> dynamics_of_circle(
-    const std::filesystem::path& machine_file, const kinematics::Machine& machine,
-    const instruments::CircleTest& circle);
 
 [[nodiscard]] std::vector<Vec3> circle_deviations(const dynamics::DynamicModel& model,
                                                   dynamics::PathMethod method,

@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "app/job/machine_files.hpp"
 #include "app/motion/circle_dynamics.hpp"
 #include "app/motion/circle_report.hpp"
+#include "app/motion/motion_dynamics.hpp"
 #include "core/constants.hpp"
 #include "instruments/approach.hpp"
 #include "instruments/circle_test.hpp"
@@ -21,33 +19,6 @@ using instruments::CircleTest;
 using instruments::CircleTrace;
 using instruments::MotionTest;
 using instruments::Sense;
-
-// What moves the tip besides its errors; nothing where that is off.
-struct CircleDynamics {
-  dynamics::PathMethod method = dynamics::PathMethod::off;
-  std::optional<dynamics::DynamicModel> model{};
-};
-
-// Takes the place of the lag by servo gains, which is another model of the same drives.
-Result<CircleDynamics> dynamics_of(const CircleWords& words, const MotionSetup& setup,
-                                   CircleTest& circle) {
-  const std::vector<std::string> known{"off", "quasi_static", "linear"};
-  const auto found = std::ranges::find(known, words.dynamics);
-  if (found == known.end()) return unknown_word("--dynamics", words.dynamics, known);
-  CircleDynamics moved{static_cast<dynamics::PathMethod>(found - known.begin()), std::nullopt};
-  if (moved.method == dynamics::PathMethod::off) return moved;
-  if (!circle.feed) {
-    return error("missing-option"_id, "--dynamics needs --feed: at rest nothing moves the tip",
-                 "for example --feed 10000");
-  }
-  circle.feed.reset();
-  const auto file = find_machine(words.machine, ".");
-  if (!file) return file.error();
-  auto model = dynamics_of_circle(*file, setup.machine, circle);
-  if (!model) return model.error();
-  moved.model = *std::move(model);
-  return moved;
-}
 
 Result<CircleTest> circle_of(const CircleWords& words, const MotionSetup& setup) {
   const auto plane = instruments::plane_named(words.plane);
@@ -65,13 +36,9 @@ Result<CircleTest> circle_of(const CircleWords& words, const MotionSetup& setup)
                     .tool_length = setup.tool_length};
   circle.angles =
       *angles ? **angles : instruments::midpoints(0.0, kTurn, instruments::kSamplesOfATurn);
-  if (words.feed) {
-    if (!(*words.feed > 0.0)) {
-      return error("out-of-range"_id,
-                   fmt::format("--feed {}: expected a feed above 0 mm/min", *words.feed));
-    }
-    circle.feed = *words.feed / kSecondsPerMinute;
-  }
+  const auto feed = feed_per_second(words);
+  if (!feed) return feed.error();
+  circle.feed = *feed;
   return circle;
 }
 
@@ -82,8 +49,11 @@ Result<MotionAnswer> circle_answer(const CircleWords& words) {
   if (!setup) return setup.error();
   auto circle = circle_of(words, *setup);
   if (!circle) return circle.error();
-  const auto moved = dynamics_of(words, *setup, *circle);
+  const std::optional<double> feed = circle->feed;
+  const auto moved = motion_dynamics(words, *setup, feed, circle->held);
   if (!moved) return moved.error();
+  // The lag by servo gains is another model of the same drives.
+  if (moved->is_on()) circle->feed.reset();
   const kinematics::ForwardChain actual(setup->machine, setup->errors, setup->tool_length);
   std::vector<CircleTrace> traces;
   MotionTest ccw;
@@ -93,9 +63,8 @@ Result<MotionAnswer> circle_answer(const CircleWords& words) {
     if (!test) return test.error();
     const MotionTest run = instruments::with_approach(*test, setup->errors);
     std::vector<Vec3> deviations;
-    if (moved->model) {
-      deviations = circle_deviations(*moved->model, moved->method, *circle, *test,
-                                     *words.feed / kSecondsPerMinute);
+    if (moved->is_on()) {
+      deviations = circle_deviations(*moved->model, moved->method, *circle, *test, *feed);
     }
     auto readings = instruments::shown(
         setup->instrument, instruments::bar_readings(actual, run, setup->setup, deviations),
@@ -111,7 +80,7 @@ Result<MotionAnswer> circle_answer(const CircleWords& words) {
   answer.document["length_mm"] = circle->length;
   answer.document["center_mm"] = coordinates(circle->centre);
   if (words.feed) answer.document["feed_mm_min"] = *words.feed;
-  if (moved->model) answer.document["dynamics"] = words.dynamics;
+  if (moved->is_on()) answer.document["dynamics"] = words.dynamics;
   answer.document["angles_deg"] = in_degrees(circle->angles);
   answer.document["ccw_um"] = in_um(traces[0].deviation);
   answer.document["cw_um"] = in_um(traces[1].deviation);

@@ -13,8 +13,6 @@ struct CircleWords : MotionWords {
   double length = 150.0;
   std::string centre{};
   std::string angles{};
-  std::optional<double> feed{};
-  std::string dynamics = "off";  // or quasi_static, linear: with a feed
 };
 
 [[nodiscard]] Result<MotionAnswer> circle_answer(const CircleWords& words);

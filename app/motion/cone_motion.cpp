@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/motion/motion_dynamics.hpp"
 #include "app/motion/turn_report.hpp"
 #include "core/constants.hpp"
 #include "instruments/cone_test.hpp"
@@ -41,7 +42,11 @@ Result<MotionAnswer> cone_answer(const ConeMotionWords& words) {
   if (!cone) return cone.error();
   const auto test = cone_test(setup->machine, *cone);
   if (!test) return test.error();
-  const auto shown = shown_by_bar(*setup, *test, words.stroke, "phi");
+  const auto feed = feed_per_second(words);
+  if (!feed) return feed.error();
+  const auto moved = deviations_of(words, *setup, *test, *feed, 1.0 / cone->radius);
+  if (!moved) return moved.error();
+  const auto shown = shown_by_bar(*setup, *test, words.stroke, "phi", *moved);
   if (!shown) return shown.error();
   const std::vector<double>& readings = *shown;
   MotionAnswer answer = answer_of("cone", fmt::format("Cone path, bar {}", words.sense), *setup);
@@ -52,6 +57,8 @@ Result<MotionAnswer> cone_answer(const ConeMotionWords& words) {
   answer.document["center_mm"] = coordinates(cone->centre);
   answer.document["table_ball_mm"] = coordinates(test->table_ball);
   answer.document["length_mm"] = test->bar;
+  if (*feed) answer.document["feed_mm_min"] = *words.feed;
+  if (!moved->empty()) answer.document["dynamics"] = words.dynamics;
   answer.document["angles_deg"] = in_degrees(cone->angles);
   answer.document["reading_um"] = in_um(readings);
   answer.document["axes"] = axes_of(setup->machine, test->poses);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/job/number_list.hpp"
+#include "app/motion/motion_dynamics.hpp"
 #include "app/view/text_table.hpp"
 #include "core/decimal.hpp"
 #include "instruments/approach.hpp"
@@ -91,10 +92,12 @@ void draw_positioning(MotionAnswer& answer, const std::vector<double>& targets,
 
 // Displacements of one run, by target.
 std::vector<Vec3> run_of(const MotionSetup& setup, const kinematics::ForwardChain& actual,
-                         const LineTest& line, RunDirection direction, std::uint32_t number) {
+                         const LineTest& line, const std::vector<Vec3>& moved,
+                         RunDirection direction, std::uint32_t number) {
   const auto poses = instruments::with_approach(line.poses, line.start, setup.errors);
-  auto d = instruments::shown(setup.instrument,
-                              instruments::displacements(actual, poses, setup.setup), number);
+  auto seen = instruments::displacements(actual, poses, setup.setup);
+  for (std::size_t i = 0; i < moved.size(); ++i) seen[i] += moved[i];
+  auto d = instruments::shown(setup.instrument, std::move(seen), number);
   if (direction == RunDirection::down) std::ranges::reverse(d);
   return d;
 }
@@ -147,6 +150,12 @@ Result<MotionAnswer> line_answer(const LineWords& words) {
   if (!up) return up.error();
   const auto down = instruments::axis_line(setup->machine, line, RunDirection::down);
   if (!down) return down.error();
+  const auto feed = feed_per_second(words);
+  if (!feed) return feed.error();
+  const auto moved_up = deviations_of(words, *setup, *up, *feed);
+  if (!moved_up) return moved_up.error();
+  const auto moved_down = deviations_of(words, *setup, *down, *feed);
+  if (!moved_down) return moved_down.error();
   const kinematics::ForwardChain actual(setup->machine, setup->errors, setup->tool_length);
   Deviations deviations_up(targets->size()), deviations_down(targets->size());
   std::vector<Vec3> means(targets->size(), Vec3::Zero());
@@ -154,7 +163,8 @@ Result<MotionAnswer> line_answer(const LineWords& words) {
   for (int run = 0; run < words.runs; ++run) {
     for (const RunDirection direction : {RunDirection::up, RunDirection::down}) {
       const bool is_up = direction == RunDirection::up;
-      const auto d = run_of(*setup, actual, is_up ? *up : *down, direction, number++);
+      const auto d = run_of(*setup, actual, is_up ? *up : *down, is_up ? *moved_up : *moved_down,
+                            direction, number++);
       for (std::size_t i = 0; i < d.size(); ++i) {
         // `down` has the opposite order, not the opposite direction.
         (is_up ? deviations_up : deviations_down)[i].push_back(d[i].dot(up->direction));
@@ -165,6 +175,8 @@ Result<MotionAnswer> line_answer(const LineWords& words) {
   MotionAnswer answer = answer_of("line", fmt::format("Laser along {}", words.axis), *setup);
   answer.document["axis"] = words.axis;
   answer.document["runs"] = static_cast<std::uint64_t>(words.runs);
+  if (*feed) answer.document["feed_mm_min"] = *words.feed;
+  if (!moved_up->empty()) answer.document["dynamics"] = words.dynamics;
   answer.document["targets_mm"] = *targets;
   const auto rows = [](const Deviations& by_target) {
     Lists list;
@@ -203,6 +215,8 @@ Result<MotionAnswer> diagonal_answer(const DiagonalWords& words) {
       setup->machine,
       {.box = *box, .points = words.points, .held = *held, .tool_length = setup->tool_length});
   if (!lines) return lines.error();
+  const auto feed = feed_per_second(words);
+  if (!feed) return feed.error();
   const kinematics::ForwardChain actual(setup->machine, setup->errors, setup->tool_length);
   MotionAnswer answer = answer_of("diagonal", "Diagonals", *setup);
   Document readings, lengths;
@@ -216,8 +230,12 @@ Result<MotionAnswer> diagonal_answer(const DiagonalWords& words) {
   for (const auto& [signs, line] : *lines) {
     LineTest run = line;
     run.poses = instruments::with_approach(run.poses, run.start, setup->errors);
-    const auto seen = instruments::from_first(instruments::shown(
-        setup->instrument, instruments::line_readings(actual, run, setup->setup), number++));
+    const auto moved = deviations_of(words, *setup, line, *feed);
+    if (!moved) return moved.error();
+    auto along = instruments::line_readings(actual, run, setup->setup);
+    for (std::size_t i = 0; i < moved->size(); ++i) along[i] += (*moved)[i].dot(line.direction);
+    const auto seen =
+        instruments::from_first(instruments::shown(setup->instrument, std::move(along), number++));
     readings[signs] = in_um(seen);
     chart.lines.push_back({.name = signs, .along = {}, .value = in_um(seen), .dots = true});
     for (const auto& pose : line.poses) chart.lines.back().along.push_back(pose.parameter);
@@ -228,6 +246,8 @@ Result<MotionAnswer> diagonal_answer(const DiagonalWords& words) {
     gains.push_back(instruments::line_gains(setup->machine, errors, line, setup->tool_length));
   }
   answer.document["points"] = static_cast<std::uint64_t>(words.points);
+  if (*feed) answer.document["feed_mm_min"] = *words.feed;
+  if (words.dynamics != "off") answer.document["dynamics"] = words.dynamics;
   answer.document["lengths_mm"] = lengths;
   answer.document["diagonals"] = readings;
   answer.document["evaluation"] = {};

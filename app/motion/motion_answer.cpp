@@ -90,11 +90,12 @@ MotionAnswer answer_of(const std::string& test, const std::string& title,
 
 Result<std::vector<double>> shown_by_bar(const MotionSetup& setup,
                                          const instruments::MotionTest& test, double stroke,
-                                         const std::string& parameter) {
+                                         const std::string& parameter,
+                                         std::span<const Vec3> moved) {
   const kinematics::ForwardChain actual(setup.machine, setup.errors, setup.tool_length);
   const auto run = instruments::with_approach(test, setup.errors);
-  auto readings =
-      instruments::shown(setup.instrument, instruments::bar_readings(actual, run, setup.setup), 0);
+  auto readings = instruments::shown(setup.instrument,
+                                     instruments::bar_readings(actual, run, setup.setup, moved), 0);
   if (auto problem = instruments::beyond_stroke(test, readings, stroke, parameter)) {
     return *std::move(problem);
   }

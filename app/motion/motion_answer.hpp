@@ -5,6 +5,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,11 +39,13 @@ struct MotionAnswer {
                                const std::vector<instruments::TestPose>& poses);
 [[nodiscard]] std::vector<double> parameters_of(const instruments::MotionTest& test);
 
-// What the bar of a test of one run shows of the actual machine. Refused: a deviation beyond its
+// What the bar of a test of one run shows of the actual machine, the tip of which is moved besides
+// in each pose. Refused: a deviation beyond its
 // stroke (mm), with where in the run it is, a value of `parameter`.
 [[nodiscard]] Result<std::vector<double>> shown_by_bar(const MotionSetup& setup,
                                                        const instruments::MotionTest& test,
-                                                       double stroke, const std::string& parameter);
+                                                       double stroke, const std::string& parameter,
+                                                       std::span<const Vec3> moved = {});
 
 // Puts `told` and `not_told` into the document and a line into the text.
 void add_told(MotionAnswer& answer, const instruments::Told& told);

@@ -8,6 +8,7 @@
 #include "app/job/axis_words.hpp"
 #include "app/job/machine_files.hpp"
 #include "app/job/number_list.hpp"
+#include "core/constants.hpp"
 #include "core/spelling.hpp"
 #include "kinematics/errors/error_assignment.hpp"
 #include "kinematics/errors/error_size.hpp"
@@ -91,6 +92,15 @@ Result<MotionSetup> motion_setup(const MotionWords& words) {
                      .setup = *setup,
                      .instrument = {*noise, *resolution, words.seed},
                      .tool_length = words.tool_length};
+}
+
+Result<std::optional<double>> feed_per_second(const MotionWords& words) {
+  if (!words.feed) return std::optional<double>{};
+  constexpr double kFastest = 1e9;
+  if (!(*words.feed > 0.0 && *words.feed <= kFastest)) {
+    return error("out-of-range"_id, fmt::format("--feed {}: expected a feed above 0", *words.feed));
+  }
+  return std::optional(*words.feed / kSecondsPerMinute);
 }
 
 instruments::SpindleBall spindle_ball_of(const MotionWords& words) {

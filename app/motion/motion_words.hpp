@@ -32,6 +32,10 @@ struct MotionWords : AnswerOptions {
   std::string noise{}, resolution{};
   std::uint64_t seed = 1;
   double stroke = 1.0;  // of a bar, to either side, mm
+  // Of a test that is run at a feed; its unit is that of the test.
+  std::optional<double> feed{};
+  std::string dynamics = "off";  // or quasi_static, linear: with a feed
+  bool jerk = false;             // the time law limits jerk, too
   std::string out{};
 };
 
@@ -46,6 +50,9 @@ struct MotionSetup {
 [[nodiscard]] Result<MotionSetup> motion_setup(const MotionWords& words);
 
 [[nodiscard]] instruments::SpindleBall spindle_ball_of(const MotionWords& words);
+
+// The feed per second, in mm or degrees; refused: none above 0, and one that nothing asks for.
+[[nodiscard]] Result<std::optional<double>> feed_per_second(const MotionWords& words);
 
 // Held axes; linear ones are refused where the test moves them.
 enum class LinearAxes { moved, held };

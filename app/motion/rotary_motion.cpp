@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/motion/motion_dynamics.hpp"
 #include "app/motion/turn_report.hpp"
 #include "instruments/rotary_test.hpp"
 #include "instruments/sample_angles.hpp"
@@ -66,7 +67,11 @@ Result<MotionAnswer> rotary_answer(const RotaryWords& words) {
   if (!rotary) return rotary.error();
   const auto test = rotary_test(setup->machine, *rotary);
   if (!test) return test.error();
-  const auto shown = shown_by_bar(*setup, *test, words.stroke, words.axis);
+  const auto feed = feed_per_second(words);
+  if (!feed) return feed.error();
+  const auto moved = deviations_of(words, *setup, *test, *feed, kRadPerDeg);
+  if (!moved) return moved.error();
+  const auto shown = shown_by_bar(*setup, *test, words.stroke, words.axis, *moved);
   if (!shown) return shown.error();
   const std::vector<double>& readings = *shown;
   MotionAnswer answer = answer_of("rotary",
@@ -78,6 +83,8 @@ Result<MotionAnswer> rotary_answer(const RotaryWords& words) {
   answer.document["hold"] = name_of(rotary->hold);
   answer.document["table_ball_mm"] = coordinates(rotary->table_ball);
   answer.document["length_mm"] = rotary->length;
+  if (*feed) answer.document["feed_deg_min"] = *words.feed;
+  if (!moved->empty()) answer.document["dynamics"] = words.dynamics;
   answer.document["angles_deg"] = in_degrees(rotary->angles);
   answer.document["reading_um"] = in_um(readings);
   answer.document["axes"] = axes_of(setup->machine, test->poses);

@@ -71,14 +71,23 @@ void read_common(const TomlTable& root, MotionWords& words) {
   }
 }
 
+void read_feed(const TomlTable& root, MotionWords& words) {
+  if (root.has("feed")) words.feed = root.number("feed", Bound::positive);
+  words.dynamics = root.text_or("dynamics", words.dynamics);
+}
+// Of a test that is run from rest to rest.
+void read_run(const TomlTable& root, MotionWords& words) {
+  read_feed(root, words);
+  words.jerk = root.boolean_or("jerk", words.jerk);
+}
+
 CircleWords read_circle(const TomlTable& root) {
   CircleWords words;
   words.plane = root.text("plane");
   words.length = root.length_or("length", {150.0}, Bound::positive).value;
   words.centre = list_at(root, "center");
   words.angles = list_or(root, "angles");
-  if (root.has("feed")) words.feed = root.number("feed", Bound::positive);
-  words.dynamics = root.text_or("dynamics", words.dynamics);
+  read_feed(root, words);
   return words;
 }
 
@@ -90,6 +99,7 @@ RotaryWords read_rotary(const TomlTable& root) {
   words.ball = list_at(root, "ball");
   words.length = root.length_or("length", {150.0}, Bound::positive).value;
   words.angles = list_or(root, "angles");
+  read_run(root, words);
   return words;
 }
 
@@ -101,12 +111,14 @@ ConeMotionWords read_cone(const TomlTable& root) {
   words.centre = list_at(root, "center");
   words.sense = root.text_or("sense", "normal");
   words.angles = list_or(root, "angles");
+  read_run(root, words);
   return words;
 }
 
 ChaseWords read_chase(const TomlTable& root) {
   ChaseWords words;
   words.ball = list_at(root, "ball");
+  read_run(root, words);
   return words;
 }
 
@@ -115,6 +127,7 @@ LineWords read_line(const TomlTable& root) {
   words.axis = root.text("axis");
   words.targets = list_at(root, "targets");
   words.runs = count_or(root, "runs", 5, 2, 1000);
+  read_run(root, words);
   return words;
 }
 
@@ -122,6 +135,7 @@ DiagonalWords read_diagonal(const TomlTable& root) {
   DiagonalWords words;
   words.box = root.text("box");
   words.points = count_or(root, "points", 11, 2, 100000);
+  read_run(root, words);
   return words;
 }
 
@@ -161,8 +175,6 @@ TestWriter written(const CircleWords& words) {
   out.number("length", words.length);
   out.list("center", words.centre);
   out.list("angles", words.angles);
-  if (words.feed) out.number("feed", *words.feed);
-  if (words.dynamics != "off") out.text("dynamics", words.dynamics);
   return out;
 }
 
@@ -299,6 +311,9 @@ std::string test_toml(const TestWords& words, const fs::path& folder) {
           out.text("machine", name_for_job(*file, folder));
         }
         out.text("at", common.at);
+        if (common.feed) out.number("feed", *common.feed);
+        if (common.dynamics != "off") out.text("dynamics", common.dynamics);
+        if (common.jerk) out.yes("jerk");
         if (common.ball_known) out.yes("ball_known");
         if (common.tool_length > 0.0) out.number("tool_length", common.tool_length);
         write_setup(common.setup, out);

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 
+#include "app/job/trial_run.hpp"
 #include "app/study/linear_piece.hpp"
 #include "app/study/place_in_file.hpp"
 #include "core/units.hpp"
@@ -33,12 +34,7 @@ std::string joined(const Diagnostics& problems) {
 }
 
 trials::TrialOptions options_of(const Job& job) {
-  trials::TrialOptions options;
-  options.path_bound = job.path_bound;
-  options.time_law = job.controller.time_law;
-  options.servo_lag = job.controller.servo_lag;
-  options.dynamic_model = job.dynamic_model;
-  options.dynamics = job.controller.dynamics;
+  trials::TrialOptions options = path_options_of(job);
   options.find_collisions = false;
   return options;
 }

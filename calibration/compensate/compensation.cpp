@@ -7,7 +7,6 @@
 #include "calibration/compensate/corrected_program.hpp"
 #include "kinematics/controller/controller.hpp"
 #include "kinematics/model/chain.hpp"
-#include "kinematics/path/travel.hpp"
 
 namespace frustum::calibration {
 namespace {
@@ -61,14 +60,35 @@ Result<CompensatedProgram> corrected(const Machine& machine, const GeometricErro
                                      const Setup& setup, std::span<const Motion> motions,
                                      const kinematics::CommandedProgram& commanded,
                                      const CompensationOptions& options) {
-  auto program = corrected_program(machine, errors, setup, motions, commanded, options);
+  if (options.run.servo_lag && options.run.has_dynamics()) {
+    return error("conflicting-keys"_id,
+                 "dynamics cannot be compensated together with servo_lag: the axes are elsewhere "
+                 "than commanded",
+                 "remove servo_lag from the job's [controller]");
+  }
+  trials::TrialOptions run = options.run;
+  run.path_bound = 0.5 * options.bound;
+  const auto before = trials::tool_travel(machine, errors, setup, commanded, run);
+  if (!before) return before.error();
+  auto shift = PathShift::of_run(machine, errors, setup, commanded, {}, options);
+  if (!shift) return shift.error();
+  auto program = corrected_program(machine, errors, setup, motions, commanded, options, *shift);
   if (!program) return program.error();
-  const kinematics::TravelOptions sampling{.path_bound = 0.5 * options.bound};
-  return CompensatedProgram{
-      .motions = std::move(program->motions),
-      .sources = std::move(program->sources),
-      .before = without_correction(
-          machine, setup, kinematics::travel(machine, setup, commanded, errors, sampling).path)};
+  // Short blocks and shifted places run otherwise than the program before; it settles at once.
+  constexpr int kMostRuns = 4;
+  for (int k = 0; options.run.has_dynamics() && k < kMostRuns; ++k) {
+    const auto written = kinematics::command(machine, setup, program->motions);
+    if (!written) return written.error();
+    auto next = PathShift::of_run(machine, errors, setup, *written, program->sources, options);
+    if (!next) return next.error();
+    if (next->distance_from(*shift) < 0.25 * options.bound) break;
+    shift = std::move(next);
+    program = corrected_program(machine, errors, setup, motions, commanded, options, *shift);
+    if (!program) return program.error();
+  }
+  return CompensatedProgram{.motions = std::move(program->motions),
+                            .sources = std::move(program->sources),
+                            .before = without_correction(machine, setup, before->path)};
 }
 
 }  // namespace frustum::calibration

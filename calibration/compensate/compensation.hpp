@@ -9,10 +9,13 @@
 //            axis positions. Tool vectors become rotary positions, arcs become short lines, tilted
 //            planes are resolved. Moves in machine coordinates and without a tool stay as they are;
 //            rapids are corrected at their ends. Errors that depend on the direction of approach
-//            are corrected for the directions in which the corrected axes move (stroke.hpp)
+//            are corrected for the directions in which the corrected axes move (stroke.hpp). What
+//            masses and springs add to the path is taken off as the corrected program has it
+//            (path_shift.hpp)
 // Units    : mm, rad
 // Errors   : what the controller refuses, before or after the correction (a corrected position
-//            beyond the travel), with the NC line
+//            beyond the travel), with the NC line; dynamics together with servo lag, whose axes are
+//            elsewhere than commanded
 // Accuracy : proven by running the result: `after` is what was measured on it
 //            (compensation_proof.hpp)
 #pragma once
@@ -27,12 +30,15 @@
 #include "kinematics/model/geometric_errors.hpp"
 #include "kinematics/model/machine.hpp"
 #include "parser/motion.hpp"
+#include "trials/trial.hpp"
 
 namespace frustum::calibration {
 
 struct CompensationOptions {
   double bound = 2e-5;       // mm: actual against nominal tip path within a block
   double axis_bound = 1e-6;  // rad: the same for the tool axis
+  // What moves the tool besides the errors, and by which time law.
+  trials::TrialOptions run{};
 };
 
 // Largest distances of an actual path from the nominal one over all feed moves.

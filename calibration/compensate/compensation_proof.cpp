@@ -13,7 +13,6 @@
 #include "calibration/compensate/pose_distance.hpp"
 #include "calibration/compensate/wanted_block.hpp"
 #include "kinematics/path/approach_direction.hpp"
-#include "kinematics/path/travel.hpp"
 
 namespace frustum::calibration {
 namespace {
@@ -242,8 +241,11 @@ Result<CompensationProof> prove(const kinematics::Machine& machine,
                                 std::span<const SourceSpan> sources,
                                 const CompensationOptions& options) {
   const double bound = 0.5 * options.bound;
-  const ToolPath path =
-      kinematics::travel(machine, setup, written, errors, {.path_bound = bound}).path;
+  trials::TrialOptions running = options.run;
+  running.path_bound = bound;
+  const auto travel = trials::tool_travel(machine, errors, setup, written, running);
+  if (!travel) return travel.error();
+  const ToolPath& path = travel->path;
   NominalSpans nominal_spans(machine, errors, setup, nominal, bound);
   if (path.blocks.size() != sources.size()) {
     return error("compensation-unproven"_id,

@@ -30,11 +30,13 @@ constexpr double kShortest = 1e-3;
 class Compensator {
  public:
   Compensator(const Machine& machine, const GeometricErrors& errors, const Setup& setup,
-              const kinematics::CommandedProgram& commanded, const CompensationOptions& options)
+              const kinematics::CommandedProgram& commanded, const CompensationOptions& options,
+              const PathShift& shift)
       : machine_(machine),
         errors_(errors),
         setup_(setup),
         options_(options),
+        shift_(shift),
         state_(machine, setup),
         controller_(machine, setup, [this](CommandedStep&& step) { follow(step); }) {
     for (const CommandedStep& step : commanded.steps) {
@@ -120,7 +122,10 @@ class Compensator {
     const CommandedMove& move = *moves_[next_block_];
     const kinematics::ToolGeometry& geometry = setup_.tools.at(tool());
     const WantedBlock wanted(machine_, errors_, move.motion, geometry.length, geometry.flute_length,
-                             0.5 * options_.bound);
+                             0.5 * options_.bound,
+                             [this](const kinematics::ToolPose& pose, double u) {
+                               return shift_.before(pose, next_block_, u);
+                             });
     const ProgrammedFrame frame(machine_, state_);
     const StrokeSolver solver(machine_, errors_, frame, wanted);
     if (move.kind == PathKind::rapid) {
@@ -208,6 +213,7 @@ class Compensator {
   const GeometricErrors& errors_;
   const Setup& setup_;
   CompensationOptions options_;
+  const PathShift& shift_;
   kinematics::ControllerState state_;
   kinematics::Controller controller_;
   std::vector<const CommandedMove*> moves_{};  // of the program as it was, with a tool
@@ -224,8 +230,9 @@ class Compensator {
 Result<CorrectedProgram> corrected_program(const Machine& machine, const GeometricErrors& errors,
                                            const Setup& setup, std::span<const Motion> motions,
                                            const kinematics::CommandedProgram& commanded,
-                                           const CompensationOptions& options) {
-  return Compensator(machine, errors, setup, commanded, options).rewritten(motions);
+                                           const CompensationOptions& options,
+                                           const PathShift& shift) {
+  return Compensator(machine, errors, setup, commanded, options, shift).rewritten(motions);
 }
 
 }  // namespace frustum::calibration

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "calibration/compensate/pose_distance.hpp"
 #include "kinematics/model/chain.hpp"
@@ -12,8 +13,8 @@ namespace frustum::calibration {
 WantedBlock::WantedBlock(const kinematics::Machine& machine,
                          const kinematics::GeometricErrors& errors,
                          const kinematics::BlockMotion& motion, double tool_length, double reach,
-                         double bound)
-    : machine_(machine), motion_(motion), tool_length_(tool_length) {
+                         double bound, Shift shift)
+    : machine_(machine), motion_(motion), tool_length_(tool_length), shift_(std::move(shift)) {
   const auto actual = [&](double u) {
     return kinematics::tool_pose(
         kinematics::actual_pose(machine, errors, motion.at(u), tool_length));
@@ -31,7 +32,9 @@ WantedBlock::WantedBlock(const kinematics::Machine& machine,
 }
 
 kinematics::ToolPose WantedBlock::pose(double u) const {
-  return kinematics::tool_pose(kinematics::nominal_pose(machine_, motion_.at(u), tool_length_));
+  const auto nominal =
+      kinematics::tool_pose(kinematics::nominal_pose(machine_, motion_.at(u), tool_length_));
+  return shift_ ? shift_(nominal, u) : nominal;
 }
 
 std::span<const double> WantedBlock::samples_between(double from, double to) const {

@@ -184,7 +184,7 @@ Result<PieceObservations> observations_of(const kinematics::Machine& machine,
     if (!names) return names.error();
     const std::size_t index = studied.size();
     studied.push_back(commanded(
-        machine, {piece.name, piece.piece, piece.base, *names, piece.path_bound, piece.commanded}));
+        machine, {piece.name, piece.piece, piece.base, *names, piece.options, piece.commanded}));
     const auto answer = answer_of(machine, studied.back(), index, causes, zero);
     if (!answer) return answer.error();
     const auto at_zero = rows_of(studied.back(), index, causes, *answer);

@@ -36,7 +36,7 @@ struct MeasuredPiece {
   kinematics::GeometricErrors base{};  // errors that are there whatever the unknowns
   std::vector<MeasuredPart> parts{};   // of the same piece, at least one
   std::optional<metrology::CmmModel> cmm{};
-  double path_bound = 1e-5;  // mm
+  trials::TrialOptions options{};  // of what is cut
   // Its program as commanded; null: whoever needs it commands it.
   std::shared_ptr<const trials::CommandedPiece> commanded{};
 };

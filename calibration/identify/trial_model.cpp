@@ -54,8 +54,8 @@ Result<trials::Sensitivity> answer_of(const kinematics::Machine& machine,
   }
   auto answer = studied.commanded
                     ? trials::sensitivity(machine, errors, piece, *studied.commanded, parameters,
-                                          studied.path_bound)
-                    : trials::sensitivity(machine, errors, piece, parameters, studied.path_bound);
+                                          studied.options)
+                    : trials::sensitivity(machine, errors, piece, parameters, studied.options);
   if (!answer) return named(answer.error(), studied.name);
   return answer;
 }

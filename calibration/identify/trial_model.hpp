@@ -30,7 +30,7 @@ struct StudiedPiece {
   programs::TestPiece piece{};
   kinematics::GeometricErrors base{};          // errors that are there whatever the causes
   std::vector<std::string> characteristics{};  // rows, by name
-  double path_bound = 1e-5;                    // mm
+  trials::TrialOptions options{};              // of what is cut
   // Its program as commanded; null: whoever needs it commands it.
   std::shared_ptr<const trials::CommandedPiece> commanded{};
 };

@@ -52,6 +52,7 @@ PathRecorder::PathRecorder(const Machine& machine, const Setup& setup,
       law_(machine, options_.time_law),
       lag_(machine, start),
       lag_step_(lag_step(machine, options_.path_bound)) {
+  if (options_.time_step > 0.0) lag_step_ = std::min(lag_step_, options_.time_step);
   path_.bound = options_.path_bound;
 }
 
@@ -214,7 +215,7 @@ std::vector<PathRecorder::TimedPose> PathRecorder::timed_samples(const Pending& 
   std::size_t k = 0;
   for (const Sample& s : pending.samples) {
     while (k + 1 < pending.ends.size() && pending.ends[k] < s.u) ++k;
-    TimedPose pose{s.pose, s.axes, clock_, {}};
+    TimedPose pose{s.pose, s.axes, clock_, {}, s.u};
     if (k < pending.segments.size()) {
       const TimedSegment& segment = pending.segments[k];
       const double begin = k > 0 ? pending.ends[k - 1] : 0.0;
@@ -240,7 +241,7 @@ void PathRecorder::add_even_times(const Pending& pending, std::vector<TimedPose>
       const AxisPositions q = motion.at(u);
       const AxisState axes(q, pending.approach->at(u, q));
       poses.push_back({pose_at(axes, pending.tool_length), axes, i * step,
-                       times(segment.per_length, segment.speed_at(i * step))});
+                       times(segment.per_length, segment.speed_at(i * step)), u});
     }
     begin = pending.ends[k];
   }
@@ -284,6 +285,7 @@ std::vector<PathRecorder::TimedPose> PathRecorder::lagged_samples(const Pending&
   std::vector<TimedPose> poses;
   if (pending.starts_chain) {
     poses.push_back(lagged(motion.start(), 0.0, clock_ - duration, pending.tool_length));
+    poses.back().share = 0.0;
   }
   double begin = 0.0;
   for (std::size_t k = 0; k < pending.segments.size(); ++k) {
@@ -294,6 +296,7 @@ std::vector<PathRecorder::TimedPose> PathRecorder::lagged_samples(const Pending&
       const double share = i == steps ? 1.0 : segment.share_at(time);
       const double u = begin + share * (pending.ends[k] - begin);
       poses.push_back(lagged(motion.at(u), segment.duration / steps, time, pending.tool_length));
+      poses.back().share = u;
     }
     begin = pending.ends[k];
   }
@@ -323,6 +326,7 @@ void PathRecorder::append(const std::vector<TimedPose>& poses, bool continues) {
     path_.axes.push_back(p.axes);
     path_.times.push_back(p.time);
     path_.velocities.push_back(p.velocity);
+    path_.shares.push_back(p.share);
   }
   const auto block = static_cast<std::uint32_t>(path_.blocks.size() - 1);
   for (auto i = first; i + 1 < path_.poses.size(); ++i) path_.segments.push_back({i, block});
@@ -348,6 +352,7 @@ void PathRecorder::hand_over() {
   next.axes = {path_.axes.back()};
   next.times = {path_.times.back()};
   next.velocities = {path_.velocities.back()};
+  next.shares = {path_.shares.back()};
   path_ = std::move(next);
 }
 

@@ -34,8 +34,8 @@ struct TravelOptions {
   double path_bound = 1e-5;  // mm
   TimeLawOptions time_law{};
   bool servo_lag = false;  // the path is where the axes are behind their commands
-  // s: poses at all multiples of it, too, through rests with a tool; 0: none. Not with servo_lag,
-  // whose steps are its own.
+  // s: poses at all multiples of it, too, through rests with a tool; 0: none. With servo_lag,
+  // whose steps are its own, no step is longer.
   double time_step = 0.0;
   PathSink sink{};  // takes the path in parts as it grows; without one the whole path is kept
 };
@@ -77,6 +77,7 @@ class PathRecorder {
     AxisState axes{};
     double time = 0.0;
     AxisPositions velocity{};
+    double share = 1.0;  // of its block
   };
 
   void travel(const CommandedMove& move);

@@ -48,6 +48,8 @@ struct ToolPath {
   std::vector<double> times{};  // s since the start of the program at each pose, by the time law
   std::vector<AxisPositions>
       velocities{};  // mm/s, rad/s of the commanded axes as they come to each pose
+  // Of the way through its block at each pose, 0 to 1; empty when the path comes from elsewhere.
+  std::vector<double> shares{};
   std::vector<PathSegment> segments{};  // in program order
   std::vector<PathBlock> blocks{};
   double bound = 1e-5;  // mm: the chord bound that the sampling kept

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "report/chart/plot_frame.hpp"
@@ -26,6 +27,23 @@ std::size_t series_of(const FrequencyChart& chart, const FrequencyLine& line) {
     ++series;
   }
   return series;
+}
+
+// A phase that goes over at 180 degrees begins again at the other side: no line joins the two.
+struct BrokenLine {
+  std::vector<double> x{}, y{};
+};
+BrokenLine without_jumps(const std::vector<double>& x, const std::vector<double>& phase) {
+  BrokenLine line;
+  for (std::size_t i = 0; i < x.size() && i < phase.size(); ++i) {
+    if (i > 0 && std::abs(phase[i] - phase[i - 1]) > 180.0) {
+      line.x.push_back(x[i]);
+      line.y.push_back(std::nan(""));
+    }
+    line.x.push_back(x[i]);
+    line.y.push_back(phase[i]);
+  }
+  return line;
 }
 
 }  // namespace
@@ -57,13 +75,27 @@ std::string frequency_figure(const FrequencyChart& chart) {
     }
     drawing.polyline(points, classes);
   };
-  draw(above, on_size, chart.lines.front().frequency, logarithms(chart.floor), "extreme");
+  // What is below the floor, in grey.
+  std::vector<SvgPoint> floor;
+  const std::vector<double>& floor_x = chart.lines.front().frequency;
+  const std::vector<double> floor_y = logarithms(chart.floor);
+  for (std::size_t i = 0; i < floor_x.size() && i < floor_y.size(); ++i) {
+    const double y = std::isfinite(floor_y[i]) ? floor_y[i] : on_size.range.low;
+    floor.push_back(
+        above.at(floor_x[i], std::clamp(y, on_size.range.low, on_size.range.high), on_x, on_size));
+  }
+  if (floor.size() > 1) {
+    floor.push_back({floor.back().x, above.bottom});
+    floor.push_back({floor.front().x, above.bottom});
+    drawing.area(floor, "below");
+  }
   std::vector<std::string> names;
   for (const FrequencyLine& line : chart.lines) {
     std::string classes = series_class("trace", series_of(chart, line));
     if (line.dashed) classes += " dashed";
     draw(above, on_size, line.frequency, logarithms(line.magnitude), classes);
-    draw(below, on_phase, line.frequency, line.phase, classes);
+    const BrokenLine phase = without_jumps(line.frequency, line.phase);
+    draw(below, on_phase, phase.x, phase.y, classes);
     if (!line.dashed) names.push_back(line.name);
   }
   return fmt::format("<figure class=\"axes\"><figcaption><b>{}</b>{}</figcaption>\n{}</figure>\n",

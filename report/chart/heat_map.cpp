@@ -37,32 +37,45 @@ std::optional<std::array<double, 2>> range_of(const HeatMap& map) {
 std::string heat_map_figure(const HeatMap& map) {
   const auto [low, high] =
       map.shades ? *map.shades : range_of(map).value_or(std::array<double, 2>{0.0, 0.0});
-  constexpr double kLeft = 150.0, kTop = 46.0, kRow = 44.0;
+  // More columns than these leave no room for their values: the shades and their ends say them.
+  constexpr std::size_t kWrittenColumns = 14;
+  const bool written = map.columns.size() <= kWrittenColumns;
+  constexpr double kLeft = 150.0, kTop = 46.0;
+  const double row_height = written ? 44.0 : 24.0;
   const double width = 900.0;
+  const std::size_t every =
+      written ? 1 : (map.columns.size() + kWrittenColumns - 1) / kWrittenColumns;
   const double cell =
       (width - kLeft - 16.0) / static_cast<double>(std::max<std::size_t>(map.columns.size(), 1));
-  const double height = kTop + kRow * static_cast<double>(map.rows.size()) + 8.0;
+  const double height = kTop + row_height * static_cast<double>(map.rows.size()) + 8.0;
   SvgDrawing drawing(width, height, map.title);
   drawing.text({kLeft + 0.5 * (width - kLeft), 14.0}, map.column_title);
   drawing.text({kLeft - 10.0, 14.0}, map.row_title, SvgAnchor::end);
-  for (std::size_t k = 0; k < map.columns.size(); ++k) {
+  for (std::size_t k = 0; k < map.columns.size(); k += every) {
     drawing.text({kLeft + (static_cast<double>(k) + 0.5) * cell, 36.0}, map.columns[k]);
   }
   for (std::size_t i = 0; i < map.rows.size(); ++i) {
-    const double y = kTop + kRow * static_cast<double>(i);
-    drawing.text({kLeft - 10.0, y + 0.5 * kRow + 4.0}, map.rows[i], SvgAnchor::end);
+    const double y = kTop + row_height * static_cast<double>(i);
+    drawing.text({kLeft - 10.0, y + 0.5 * row_height + 4.0}, map.rows[i], SvgAnchor::end);
     for (std::size_t k = 0; k < map.columns.size(); ++k) {
       const auto& value = map.values[i * map.columns.size() + k];
       if (!value) continue;
       const double share = high > low ? (*value - low) / (high - low) : 0.0;
       const double x = kLeft + static_cast<double>(k) * cell;
-      drawing.rectangle({x, y}, {x + cell, y + kRow}, "cell", shade(share));
-      drawing.text({x + 0.5 * cell, y + 0.5 * kRow + 4.0}, fmt::format("{:.4g}", *value),
+      drawing.rectangle({x, y}, {x + cell, y + row_height}, "cell", shade(share));
+      if (!written) continue;
+      drawing.text({x + 0.5 * cell, y + 0.5 * row_height + 4.0}, fmt::format("{:.4g}", *value),
                    SvgAnchor::middle, share > 0.45 ? "on-dark" : "on-light");
     }
   }
-  return fmt::format("<figure class=\"axes\"><figcaption><b>{}</b></figcaption>\n{}</figure>\n",
-                     html_text(map.title), drawing.html());
+  const std::string ends =
+      written ? ""
+              : fmt::format(
+                    "<span class=\"shades\">{:.4g} <i style=\"background:linear-gradient("
+                    "90deg,{},{})\"></i> {:.4g}</span>",
+                    low, shade(0.0), shade(1.0), high);
+  return fmt::format("<figure class=\"axes\"><figcaption><b>{}</b>{}</figcaption>\n{}</figure>\n",
+                     html_text(map.title), ends, drawing.html());
 }
 
 }  // namespace frustum::report

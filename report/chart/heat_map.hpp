@@ -1,4 +1,5 @@
-// A table of values as coloured cells, with each value written in its cell.
+// A table of values as coloured cells, with each value written in its cell; of many columns with a
+// scale instead.
 //
 // Units: those of the values. Errors: none; a cell without a value stays empty.
 #pragma once

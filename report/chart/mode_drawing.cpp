@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -44,8 +45,9 @@ std::string mode_figure(const ModeDrawing& mode) {
       }
     }
   }
-  constexpr double kHeight = 360.0, kWidth = 900.0, kRim = 10.0;
-  const double scale = (kHeight - 2.0 * kRim) / std::max(up.high - up.low, 1.0);
+  constexpr double kHeight = 360.0, kWidth = 620.0, kRim = 10.0;
+  const double scale = std::min((kHeight - 2.0 * kRim) / std::max(up.high - up.low, 1.0),
+                                (kWidth - 2.0 * kRim) / std::max(across.high - across.low, 1.0));
   const double left = 0.5 * (kWidth - scale * (across.high - across.low));
   SvgDrawing drawing(kWidth, kHeight, mode.title);
   std::vector<std::string> names;
@@ -62,8 +64,9 @@ std::string mode_figure(const ModeDrawing& mode) {
       }
       return found;
     };
-    drawing.swinging(strokes(-1.0), strokes(1.0), series_class("trace", b));
-    names.push_back(body.name);
+    // The first is the bed, which stands behind all others.
+    drawing.swinging(strokes(-1.0), strokes(1.0), b == 0 ? "bed" : series_class("trace", b - 1));
+    if (b > 0) names.push_back(body.name);
   }
   return fmt::format("<figure class=\"axes\"><figcaption><b>{}</b>{}</figcaption>\n{}</figure>\n",
                      html_text(mode.title), series_key(names), drawing.html());

@@ -19,7 +19,7 @@ struct SwingingBody {
 
 struct ModeDrawing {
   std::string title{};
-  std::vector<SwingingBody> bodies{};
+  std::vector<SwingingBody> bodies{};  // the bed first
 };
 
 [[nodiscard]] std::string mode_figure(const ModeDrawing& mode);

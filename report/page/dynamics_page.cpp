@@ -51,8 +51,8 @@ std::string modes_of(const DynamicsPage& page) {
   }
   return section(
       "modes", "Shapes of the modes",
-      content + note_of("Each body is a box of its mass and inertia, steel. The swing is "
-                        "enlarged."));
+      content + note_of("Each body is the even box that has its mass and inertia, the bed "
+                        "in grey. The swing is enlarged."));
 }
 
 }  // namespace

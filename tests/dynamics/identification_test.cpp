@@ -85,15 +85,42 @@ TEST(IdentificationLaws, IntervalsHoldTheTruthInTwoHundredRepetitions) {
 }
 
 TEST(Identification, SaysWhatCannotBeSeparated) {
-  // The whole and its parts.
-  const std::vector<std::string> names{"mount.stiffness", "mount.stiffness.horizontal",
-                                       "mount.stiffness.z"};
+  // Far below the first mode the mounts move tool and workpiece alike.
+  const std::vector<std::string> names{"mount.stiffness.z", "Z.drive.stiffness"};
   const DynamicModel model = model_named("iwf-bc");
-  const auto found = identify_parameters(model, home_position(), 150.0,
-                                         measured_on(model, home_position(), 0.01, 3), names);
-  ASSERT_TRUE(found);
-  ASSERT_EQ(found->not_separated.size(), 1U);
-  EXPECT_THAT(found->not_separated[0], testing::UnorderedElementsAreArray(names));
+  const Structure structure = structure_at(model, home_position(), 150.0);
+  FrequencyResponse response{2, 2, {}, {}};
+  for (const double share : {0.96, 1.05, 0.98, 1.01}) {
+    response.frequencies.push_back(0.5 + 0.5 * static_cast<double>(response.frequencies.size()));
+    response.compliance.push_back(
+        share * tip_compliance(harmonic_system(structure, response.frequencies.back()))(2, 2));
+  }
+  const auto found =
+      identify_parameters(model, home_position(), 150.0, std::vector{response}, names);
+  ASSERT_FALSE(found);
+  EXPECT_THAT(found.error().front().message,
+              testing::HasSubstr("show nothing of mount.stiffness.z"));
+}
+
+TEST(Identification, RefusesOverlapsControlsAndNothing) {
+  const DynamicModel model = model_named("iwf-bc");
+  auto measured = measured_on(model, home_position(), 0.0, 0);
+  const auto refusal = [&](const DynamicModel& machine, const std::vector<std::string>& names) {
+    const auto found = identify_parameters(machine, home_position(), 0.0, measured, names);
+    EXPECT_FALSE(found);
+    return found ? std::string() : found.error().front().message;
+  };
+  using testing::HasSubstr;
+  EXPECT_THAT(refusal(model, {"mount.stiffness", "mount.stiffness.z"}), HasSubstr("same numbers"));
+  EXPECT_THAT(refusal(model, {"mount.damping.horizontal", "mount.damping.x"}),
+              HasSubstr("same numbers"));
+  EXPECT_THAT(refusal(model, {"X.carriage.damping.normal", "X.carriage.damping"}),
+              HasSubstr("same numbers"));
+  EXPECT_THAT(refusal(model_named("iwf-bc", true), {"mount.stiffness"}), HasSubstr("controlled"));
+  EXPECT_TRUE(identify_parameters(model, home_position(), 0.0, measured,
+                                  {"mount.stiffness.horizontal", "mount.stiffness.z"}));
+  measured.front().compliance[2] = 0.0;
+  EXPECT_THAT(refusal(model, {"mount.stiffness"}), HasSubstr("has no phase"));
 }
 
 TEST(Identification, RefusesUnknownNamesAndTooFewLines) {

@@ -48,6 +48,41 @@ TEST(ModelFile, TakesABodyAsTheSumOfSolids) {
   EXPECT_NEAR((*model)->axes[1].body.mass, 853.4419012, 1e-6);
 }
 
+// The body Z as these solids.
+std::string with_solids(const std::string& solids) {
+  std::string text = good_text();
+  const std::string body =
+      "[dynamics.body.Z]\n" + keys_of(expected()["machines"]["iwf-bc"]["bodies"]["Z"]);
+  return text.replace(text.find(body), body.size(), solids);
+}
+
+TEST(ModelFile, RefusesSolidsInOtherUnitsAndOutlinesThatCross) {
+  const std::string element = "[[dynamics.body.Z.element]]\n";
+  const std::string prism = element + "shape = \"prism\"\nlength = 100\ndensity = 7850\n";
+  const struct {
+    std::string solids;
+    const char* told;
+  } kBad[] = {
+      // Metres, a density in g/cm^3, and tonnes of a thimble.
+      {element + "shape = \"box\"\nsize = [0.7, 0.6, 0.12]\ndensity = 7200\n", "weighs"},
+      {element + "shape = \"box\"\nsize = [0.07, 0.06, 0.012]\nmass = 30\n", "wide"},
+      {element + "shape = \"cylinder\"\ndiameter = 1e6\nlength = 1e6\ndensity = 7200\n", "weighs"},
+      {prism + "outline = [[0, 0], [300, 0], [0, 100], [200, 100]]\n", "crosses itself"},
+      {prism + "outline = [[0, 0], [300, 0]]\n", "encloses no area"},
+      {prism + "outline = [[0, 0], [1e7, 0], [0, 1]]\n", "kilometre"},
+      {element + "shape = \"box\"\nsize = [1e7, 1, 1]\nmass = 30\n", "kilometre"},
+      {element + "shape = \"cylinder\"\ndiameter = 10\nlength = 1e7\nmass = 30\n", "kilometre"},
+  };
+  for (const auto& bad : kBad) {
+    const auto model = model_from_text(with_solids(bad.solids));
+    ASSERT_FALSE(model) << bad.solids;
+    EXPECT_THAT(to_string(model.error().front()), testing::HasSubstr(bad.told));
+    EXPECT_GT(model.error().front().line, 0);
+  }
+  EXPECT_TRUE(
+      model_from_text(with_solids(prism + "outline = [[0, 0], [300, 0], [300, 100], [0, 100]]\n")));
+}
+
 struct BadFile {
   const char* good;
   const char* bad;

@@ -173,6 +173,51 @@ TEST(PathDeviationReference, ControlledDrivesMakeTheCircleOfTheirClosedLoop) {
   }
 }
 
+Vec3 tip_at(const ToolPath& path, double time) {
+  const auto after = std::ranges::upper_bound(path.times, time);
+  const auto i = static_cast<std::size_t>(after - path.times.begin());
+  if (i == 0 || i == path.times.size()) return path.poses[std::min(i, path.times.size() - 1)].tip;
+  const double share = (time - path.times[i - 1]) / (path.times[i] - path.times[i - 1]);
+  return path.poses[i - 1].tip + share * (path.poses[i].tip - path.poses[i - 1].tip);
+}
+
+// F = -Kp Kv p - Kp v about axes that lag by Kv is F = Kp (Kv (q - y) - y') about the command.
+TEST(PathDeviationLaws, LagBeforeSpringsIsTheCascadeThatTheyStandFor) {
+  const auto machine = kinematics::shipped("iwf-bc");
+  DynamicModel springs = model_named("iwf-bc");
+  DynamicModel cascade = springs;
+  for (std::size_t k = 0; k < springs.axes.size(); ++k) {
+    const double gain = machine.joint(springs.axes[k].joint.letter)->dynamics.servo_gain;
+    SpringDamper& spring = springs.axes[k].drive.spring;
+    spring.damping = spring.stiffness / gain;
+    cascade.axes[k].control = Control{.position_gain = gain, .velocity_gain = spring.damping};
+  }
+  const kinematics::GeometricErrors errors;
+  const auto motions = circles(2);
+  const auto run = [&](const DynamicModel& model, bool lag) {
+    const auto done =
+        kinematics::execute(machine, errors, circle_setup(), motions,
+                            {.time_law = {.jerk = true}, .servo_lag = lag, .time_step = 5e-4});
+    EXPECT_TRUE(done);
+    return with_dynamics(model, circle_setup(), done->path, {.method = PathMethod::linear});
+  };
+  const ToolPath lagging = run(springs, true), controlled = run(cascade, false);
+  const auto commanded = kinematics::execute(machine, errors, circle_setup(), motions,
+                                             {.time_law = {.jerk = true}, .time_step = 5e-4});
+  ASSERT_TRUE(commanded);
+  double most = 0.0, late = 0.0;
+  for (std::size_t i = 0; i < controlled.poses.size(); ++i) {
+    // The last block ends when the lag has run out, which the other path does not wait for.
+    if (controlled.times[i] > controlled.times.back() - 0.7) break;
+    const Vec3 tip = tip_at(lagging, controlled.times[i]);
+    most = std::max(most, (tip - controlled.poses[i].tip).norm());
+    late = std::max(late, (tip - tip_at(commanded->path, controlled.times[i])).norm());
+  }
+  std::cout << "lag before springs against the cascade: " << 1e3 * most << " um\n";
+  EXPECT_LT(most, 1e-4);
+  EXPECT_GT(late, 3.0);  // v / Kv is 3.3 mm
+}
+
 TEST(PathDeviation, TheToolStaysUntilTheVibrationIsGone) {
   const DynamicModel model = model_named("iwf-bc");
   const auto paths = travel_circles(model, 1, {.method = PathMethod::linear}, true);

@@ -58,6 +58,18 @@ TEST(RigidBody, RefusesTensorsOfNoBody) {
   Mat3 product = Mat3(Vec3(2, 2, 3).asDiagonal());
   product(0, 1) = product(1, 0) = 2.1;
   EXPECT_TRUE(impossible_inertia(product));
+  EXPECT_FALSE(impossible_inertia(Mat3(Vec3(1e-6, 1, 1).asDiagonal())));  // a thin rod
+  EXPECT_TRUE(impossible_inertia(Mat3(Vec3(1e-12, 1, 1).asDiagonal())));
+}
+
+TEST(RigidBody, TellsAnOutlineThatCrossesItself) {
+  const auto crosses = [](std::vector<Eigen::Vector2d> outline) {
+    return crosses_itself({std::move(outline), 1.0});
+  };
+  EXPECT_FALSE(crosses({{0, 0}, {1, 0}, {0, 1}}));
+  EXPECT_FALSE(crosses({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 3}, {0, 3}}));  // an L
+  EXPECT_TRUE(crosses({{0, 0}, {3, 0}, {0, 1}, {2, 1}}));                   // a bow tie
+  EXPECT_TRUE(crosses({{0, 0}, {2, 0}, {2, 2}, {1, -1}, {0, 2}}));
 }
 
 }  // namespace

@@ -4,6 +4,9 @@
 #include <stdexcept>
 #include <variant>
 
+#include "dynamics/model_file.hpp"
+#include "dynamics/modes.hpp"
+#include "dynamics/response.hpp"
 #include "tests/fuzz/files/file_checks.hpp"
 #include "tests/fuzz/files/one_file.hpp"
 
@@ -38,6 +41,28 @@ void check_body(const MachineBody& body) {
   }
 }
 
+void check_body(const dynamics::RigidBody& body) {
+  check_finite(body.mass, "mass");
+  check_finite(body.centre, "com");
+  check_finite(body.inertia.determinant(), "inertia");
+}
+
+// What is read has natural frequencies and a tip that yields, or is refused.
+void check_dynamics(std::string_view text, const Machine& machine) {
+  const auto model = dynamics::read_model(text, kTriedFile, machine);
+  if (!model) return check_failures(model.error(), kTriedFile, Placed::always);
+  if (!*model) return;
+  check_body((*model)->bed);
+  for (const dynamics::AxisModel& axis : (*model)->axes) check_body(axis.body);
+  const auto structure = structure_at(**model, machine.home(), 0.0);
+  for (const double frequency : natural_frequencies(structure)) {
+    check_finite(frequency, "a natural frequency");
+    if (!(frequency > 0.0)) throw std::runtime_error("a body that nothing holds");
+  }
+  const auto rest = static_response(**model, structure);
+  for (const double each : rest.compliance.reshaped()) check_finite(each, "a compliance");
+}
+
 }  // namespace
 
 void run_one_machine(std::string_view text) {
@@ -48,6 +73,7 @@ void run_one_machine(std::string_view text) {
   check_finite(machine->table_offset(), "offset of the table");
   for (const auto& [symbol, alias] : machine->aliases()) check_finite(alias.scale, "scale");
   for (const MachineBody& body : machine->bodies()) check_body(body);
+  check_dynamics(text, *machine);
   if (machine->error_names().empty()) throw std::runtime_error("a machine without errors");
 }
 
