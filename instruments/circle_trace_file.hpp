@@ -1,7 +1,7 @@
 // Measured traces of a circular test, as bar programs export them.
 //
-// Text   : columns run (ccw, cw), angle_deg or time_s, radial_um, radial_mm or length_mm
-//          (trace_table.hpp); comments "# run ccw", "# plane XY", "# radius 150", "# feed 1000",
+// Text   : columns run (ccw, cw), angle_deg or time_s, radial_um (or reading_um),
+//          radial_mm or length_mm (trace_table.hpp); comments "# run ccw", "# plane XY", "# radius 150", "# feed 1000",
 //          "# temperature 20". A file holds one run or both; two files hold one each. Angles of a
 //          cw run fall. A bar knows no angle: times are spread evenly over the capture arc
 // Units  : as the columns say; out: mm, rad
@@ -26,6 +26,8 @@ struct CircleTraceWords {
   std::optional<double> length{};  // nominal, mm
   kinematics::AxisRange capture{0.0, 360.0 * kRadPerDeg};
   double stroke = 1.0;  // of the bar, to either side, mm
+  // A run that is not said is ccw where its angles rise, else cw.
+  bool sense_may_be_missing = false;
 };
 
 struct CircleTraces {

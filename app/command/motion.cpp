@@ -1,4 +1,5 @@
 // frustum motion: motion tests on the virtual machine, and measured traces.
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -7,14 +8,19 @@
 #include "app/motion/test_file.hpp"
 #include "app/motion/trace_motion.hpp"
 #include "core/file_set.hpp"
+#include "core/whole_file.hpp"
 #include "report/page/motion_page.hpp"
 
 namespace frustum::app {
 namespace {
 
 int show_motion(const Result<MotionAnswer>& answer, const AnswerOptions& options,
-                const std::string& out) {
+                const std::string& out, const std::string& program = {}) {
   if (!answer) return refuse(answer.error(), options);
+  if (answer->program && !program.empty()) {
+    const auto written = write_whole_file(program, answer->program->text);
+    if (!written) return refuse(written.error(), options);
+  }
   if (!out.empty()) {
     std::vector<std::string> names{"motion.json", "motion.html"};
     for (const auto& [name, bytes] : answer->files) names.push_back(name);
@@ -73,11 +79,31 @@ template <typename Words>
 void runs_test(Command& command, const std::shared_ptr<Words>& words) {
   command.runs([words] {
     auto answer = answer_of(TestWords(*words));
-    if (answer && !words->out.empty()) {
-      answer->files["test.toml"] = test_toml(*words, words->out);
+    Words named = *words;
+    if (answer && answer->program && words->nc.file.empty() && !words->out.empty()) {
+      named.nc.file = (std::filesystem::path(words->out) / answer->program->name).string();
+      answer->files[answer->program->name] = answer->program->text;
     }
-    return show_motion(answer, *words, words->out);
+    if (answer && !words->out.empty()) {
+      answer->files["test.toml"] = test_toml(named, words->out);
+    }
+    return show_motion(answer, *words, words->out, words->nc.file);
   });
+}
+
+void add_program_options(Command& command, ProgramWords& words) {
+  command.option("--program", words.file,
+                 "NC program of the test, to be written (default: with --dialect and --out beside "
+                 "the other files)");
+  command.option("--dialect", words.dialect, "fanuc (default), linuxcnc, sinumerik or heidenhain")
+      .one_of({"fanuc", "linuxcnc", "sinumerik", "heidenhain"});
+  command
+      .option("--form", words.form,
+              "tcp: tip and rotary axes under tool centre point control (default); axes: positions "
+              "of all axes")
+      .one_of({"tcp", "axes"});
+  command.option("--program-feed", words.feed,
+                 "mm/min, deg/min where only rotary axes move (default 1000)");
 }
 
 void add_circle(Command& tests) {
@@ -98,6 +124,7 @@ void add_circle(Command& tests) {
   command.option("--dynamics", words->dynamics,
                  "quasi_static or linear: instead of that lag, masses and springs of the machine "
                  "move the tip (default: off)");
+  add_program_options(command, words->nc);
   command.footer(
       "Example: frustum motion circle --machine iwf-bc --plane XY --length 150 --center 0,0,150 "
       "--error EC0Y=30urad");
@@ -122,6 +149,7 @@ void add_rotary(Command& tests) {
   command.option("--at", words->at, "\"A=-90\": the other rotary axes, degrees (default 0)");
   command.option("--angles", words->angles,
                  "0,30,60: degrees (default: 3600 midpoints of a full turn or of the travel)");
+  add_program_options(command, words->nc);
   command.footer(
       "Example: frustum motion rotary --machine zx-yac --axis C --direction radial --ball "
       "100,0,100 --length 150 --error EX0C=10um");
@@ -143,6 +171,7 @@ void add_cone_motion(Command& tests) {
                  "normal: along the surface normal (default); radial: in the plane of the path");
   command.option("--angles", words->angles,
                  "0,30,60: phi, degrees (default: 3600 midpoints of a full turn)");
+  add_program_options(command, words->nc);
   command.footer(
       "Example: frustum motion cone --machine iwf-bc --cone-angle 45 --inclination 30 --radius 40 "
       "--center=-65,0,150 --sense normal --error EX0C=10um");
@@ -156,6 +185,7 @@ void add_chase(Command& tests) {
   command.option("--ball", words->ball, "x,y,z of the table ball in the table frame, mm")
       .required();
   command.option("--at", words->at, "\"A=-90,C=0;A=0,C=60\": rotary poses, degrees").required();
+  add_program_options(command, words->nc);
   command.footer(
       "Example: frustum motion chase --machine zx-yac --ball 100,0,100 --at \"A=-90,C=0;A=0,C=60\" "
       "--error EX0C=10um");
@@ -171,6 +201,7 @@ void add_line(Command& tests) {
   command.option("--targets", words->targets, "0,37,75: positions of the axis, mm").required();
   command.option("--runs", words->runs, "In each direction (default 5)").within(2, 1000);
   command.option("--at", words->at, "\"Y=100,Z=50\": the other axes, mm and degrees (default 0)");
+  add_program_options(command, words->nc);
   command.footer(
       "Example: frustum motion line --machine zx-yac --axis X --targets=-180,-97,-31,42,111,178 "
       "--error \"EXX=linear 10um + reversal 3um\"");
@@ -185,6 +216,7 @@ void add_diagonal(Command& tests) {
       .required();
   command.option("--points", words->points, "On each diagonal (default 11)").within(2, 100000);
   command.option("--at", words->at, "\"Z=50,B=30\": the other axes, mm and degrees (default 0)");
+  add_program_options(command, words->nc);
   command.footer(
       "Example: frustum motion diagonal --machine iwf-bc --box \"X=-200:200,Y=-150:150,Z=0:300\" "
       "--error EC0Y=20urad");
@@ -211,6 +243,7 @@ void add_touch(Command& tests) {
 struct RunWords : AnswerOptions {
   std::string file{};
   ErrorWords errors{};
+  bool servo_lag = false;
   std::string out{};
 };
 
@@ -219,6 +252,9 @@ void add_motion_run(Command& tests) {
   Command command = tests.command("run", "A motion test of a file, as --out writes one");
   command.option("file", words->file, "test.toml").required();
   add_error_options(command, words->errors);
+  command.flag("--servo-lag", words->servo_lag,
+               "While the NC program of the test runs, the axes follow late by their servo gains "
+               "(a circle with a feed: always)");
   command.option("--out", words->out, "Folder for motion.html, motion.json and trace.csv");
   add_answer_options(command, *words);
   command.footer("Example: frustum motion run ballbar/test.toml --error EC0Y=30urad");
@@ -226,6 +262,7 @@ void add_motion_run(Command& tests) {
     auto test = read_test_file(words->file);
     if (!test) return refuse(test.error(), *words);
     common_words(*test).errors = words->errors;
+    if (words->servo_lag) common_words(*test).nc.servo_lag = true;
     return show_motion(answer_of(*test), *words, words->out);
   });
 }

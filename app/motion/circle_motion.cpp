@@ -7,6 +7,7 @@
 #include "app/job/machine_files.hpp"
 #include "app/motion/circle_dynamics.hpp"
 #include "app/motion/circle_report.hpp"
+#include "app/motion/test_program.hpp"
 #include "core/constants.hpp"
 #include "instruments/approach.hpp"
 #include "instruments/circle_test.hpp"
@@ -49,7 +50,39 @@ Result<CircleDynamics> dynamics_of(const CircleWords& words, const MotionSetup& 
   return moved;
 }
 
-Result<CircleTest> circle_of(const CircleWords& words, const MotionSetup& setup) {
+// Both senses in place of the analytic samples.
+Result<double> take_program_readings(const CircleWords& words, const MotionSetup& setup,
+                                     const CircleTest& circle, std::vector<CircleTrace>& traces) {
+  CircleTest commanded = circle;
+  commanded.feed.reset();
+  const auto test = circle_test(setup.machine, commanded);
+  if (!test) return test.error();
+  BarOfProgram bar{.test = *test,
+                   .parameter = circle_parameter(setup.machine, circle),
+                   .name = "phi",
+                   .origin = programs::circle_origin(setup.machine, circle),
+                   .stroke = words.stroke,
+                   .servo_lag = words.feed.has_value()};
+  for (const CircleTrace& trace : traces) bar.expected.push_back(trace.deviation);
+  auto found = readings_by_program(words.nc, setup, bar, instruments::kSenses);
+  if (!found) return found.error();
+  for (std::size_t k = 0; k < traces.size(); ++k) traces[k].deviation = found->shown[k];
+  return found->largest_difference;
+}
+
+// To be written, where that is asked for.
+std::optional<Diagnostics> add_circle_program(MotionAnswer& answer, const CircleWords& words,
+                                              const MotionSetup& setup, const CircleTest& circle) {
+  if (!words.nc.written()) return std::nullopt;
+  auto options = program_options(words.nc);
+  if (!options) return options.error();
+  if (words.feed) options->feed = *words.feed;
+  return add_program(answer, programs::circle_program(setup.machine, circle, *options));
+}
+
+}  // namespace
+
+Result<CircleTest> circle_of_words(const CircleWords& words, const MotionSetup& setup) {
   const auto plane = instruments::plane_named(words.plane);
   if (!plane) return unknown_word("--plane", words.plane, {"XY", "YZ", "ZX"});
   const auto centre = place_of(words.centre, "--center");
@@ -75,16 +108,20 @@ Result<CircleTest> circle_of(const CircleWords& words, const MotionSetup& setup)
   return circle;
 }
 
-}  // namespace
-
 Result<MotionAnswer> circle_answer(const CircleWords& words) {
   const auto setup = motion_setup(words);
   if (!setup) return setup.error();
-  auto circle = circle_of(words, *setup);
+  auto circle = circle_of_words(words, *setup);
   if (!circle) return circle.error();
   const auto moved = dynamics_of(words, *setup, *circle);
   if (!moved) return moved.error();
+  if (moved->model && words.nc.run) {
+    return error("conflicting-options"_id, "masses and springs do not move the axes of a program",
+                 "leave out dynamics, or program");
+  }
   const kinematics::ForwardChain actual(setup->machine, setup->errors, setup->tool_length);
+  // Of a program's run the analytic samples are what it is compared with.
+  const auto instrument = words.nc.run ? instruments::Instrument{} : setup->instrument;
   std::vector<CircleTrace> traces;
   MotionTest ccw;
   for (const Sense sense : instruments::kSenses) {
@@ -98,7 +135,7 @@ Result<MotionAnswer> circle_answer(const CircleWords& words) {
                                      *words.feed / kSecondsPerMinute);
     }
     auto readings = instruments::shown(
-        setup->instrument, instruments::bar_readings(actual, run, setup->setup, deviations),
+        instrument, instruments::bar_readings(actual, run, setup->setup, deviations),
         static_cast<std::uint32_t>(sense));
     if (auto problem = instruments::beyond_stroke(run, readings, words.stroke, "phi")) {
       return *std::move(problem);
@@ -106,7 +143,15 @@ Result<MotionAnswer> circle_answer(const CircleWords& words) {
     traces.push_back({sense, circle->angles, std::move(readings)});
     if (sense == Sense::ccw) ccw = *std::move(test);
   }
+  double difference = 0.0;
+  if (words.nc.run) {
+    const auto taken = take_program_readings(words, *setup, *circle, traces);
+    if (!taken) return taken.error();
+    difference = *taken;
+  }
   MotionAnswer answer = answer_of("circle", "Circle in " + words.plane, *setup);
+  if (words.nc.run) add_program_run(answer, words.nc, difference);
+  if (auto problem = add_circle_program(answer, words, *setup, *circle)) return *std::move(problem);
   answer.document["plane"] = words.plane;
   answer.document["length_mm"] = circle->length;
   answer.document["center_mm"] = coordinates(circle->centre);

@@ -21,6 +21,18 @@
 
 namespace frustum::app {
 
+// The NC program of a test, which is written, or (of a test file) run.
+struct ProgramWords {
+  std::string file{};
+  std::string dialect{};
+  std::string form{};  // tcp (default), axes
+  double feed = 1000.0;
+  bool run = false;        // else it is written, where a file or a dialect is given
+  bool servo_lag = false;  // while it runs
+
+  [[nodiscard]] bool written() const { return !run && (!file.empty() || !dialect.empty()); }
+};
+
 struct MotionWords : AnswerOptions {
   std::string machine{};
   ErrorWords errors{};
@@ -32,6 +44,7 @@ struct MotionWords : AnswerOptions {
   std::string noise{}, resolution{};
   std::uint64_t seed = 1;
   double stroke = 1.0;  // of a bar, to either side, mm
+  ProgramWords nc{};
   std::string out{};
 };
 

@@ -283,6 +283,18 @@ Json recipe_json(const Recipe& recipe) {
   return list;
 }
 
+std::string counted(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+// "2 parts and 9 motion tests"
+std::string sources_text(const Study& study) {
+  const std::string parts = counted(study.parts.size(), "part");
+  const std::string tests = counted(study.motions.size(), "motion test");
+  if (study.motions.empty()) return parts;
+  return study.parts.empty() ? tests : parts + " and " + tests;
+}
+
 }  // namespace
 
 std::string identification_text(const Study& study, const StudyResult& result) {
@@ -290,10 +302,9 @@ std::string identification_text(const Study& study, const StudyResult& result) {
   std::size_t rows = 0;
   for (const auto& r : identification.residuals) rows += r.prior ? 0 : 1;
   std::string out =
-      fmt::format("{}\n{}: {} measured characteristics on {} part{}, {} unknowns\n\n",
+      fmt::format("{}\n{}: {} measured characteristics on {}, {} unknowns\n\n",
                   study.title.empty() ? study.file.string() : study.title, study.machine().title(),
-                  rows, study.parts.size(), study.parts.size() == 1 ? "" : "s",
-                  identification.observability.unknowns);
+                  rows, sources_text(study), identification.observability.unknowns);
   out += estimates_table(study, result);
   out += combinations_text(result);
   if (!identification.diagnostics.empty() || !result.left_out.empty()) out += '\n';

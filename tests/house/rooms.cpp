@@ -19,7 +19,7 @@ const std::map<std::string, Room>& rooms() {
       {"lint", {4}},
       {"cutter", {4, {"body", "sweep", "search"}}},
       {"stock", {5, {"solid", "dexel", "mesh", "collision", "proof", "polyhedral"}}},
-      {"programs", {6, {"cone", "step", "contour"}}},
+      {"programs", {6, {"cone", "step", "contour", "motion"}}},
       {"report", {6, {"html", "chart", "picture", "page", "exchange", "sheet"}}},
       {"trials", {7, {"population"}}},
       {"calibration", {8, {"identify", "design", "compensate"}}},
