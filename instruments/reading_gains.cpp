@@ -1,5 +1,7 @@
 #include "instruments/reading_gains.hpp"
 
+#include <optional>
+
 #include "kinematics/model/chain.hpp"
 
 namespace frustum::instruments {
@@ -18,14 +20,26 @@ ReadingGains bar_gains(const Machine& machine, std::span<const MachineError> err
   ReadingGains gains{.errors = Eigen::MatrixXd(rows, size_of(errors.size())),
                      .ball = Eigen::MatrixXd(rows, 3),
                      .of_test = Eigen::MatrixXd(rows, 4)};
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const TestPose& pose = test.poses[static_cast<std::size_t>(i)];
+  const Eigen::Index columns = size_of(errors.size());
+  // u . G, u . R, u
+  const auto row_of = [&](std::size_t i) {
+    const TestPose& pose = test.poses[i];
     const Eigen::RowVector3d u = (pose.spindle_ball - test.table_ball).normalized().transpose();
-    gains.errors.row(i) =
-        u * gain_matrix(machine, errors, pose.at.q, test.tool_length).topRows<3>();
-    gains.ball.row(i) = u * nominal_pose(machine, pose.at.q, test.tool_length).rotation;
-    gains.of_test.row(i) << -u, -1.0;
+    Eigen::RowVectorXd row(columns + 6);
+    row << u * gain_matrix(machine, errors, pose.at.q, test.tool_length).topRows<3>(),
+        u * nominal_pose(machine, pose.at.q, test.tool_length).rotation, u;
+    return row;
+  };
+  std::optional<Eigen::MatrixXd> all;
+  if (test.polynomials) all = test.polynomials->at_all(columns + 6, row_of);
+  if (!all) {
+    all.emplace(rows, columns + 6);
+    for (Eigen::Index i = 0; i < rows; ++i) all->row(i) = row_of(static_cast<std::size_t>(i));
   }
+  gains.errors = all->leftCols(columns);
+  gains.ball = all->middleCols<3>(columns);
+  gains.of_test.leftCols<3>() = -all->rightCols<3>();
+  gains.of_test.col(3).setConstant(-1.0);
   return gains;
 }
 
@@ -63,6 +77,7 @@ MotionTest thinned(const MotionTest& test, std::size_t most) {
   if (test.poses.size() <= most) return test;
   MotionTest few = test;
   few.poses.clear();
+  few.polynomials.reset();
   for (std::size_t i = 0; i < most; ++i) {
     few.poses.push_back(test.poses[i * test.poses.size() / most]);
   }

@@ -7,8 +7,11 @@
 #include "app/command/commands.hpp"
 #include "app/motion/test_file.hpp"
 #include "app/motion/trace_motion.hpp"
+#include "app/motion/vectors_motion.hpp"
+#include "app/view/text_table.hpp"
 #include "core/file_set.hpp"
 #include "core/whole_file.hpp"
+#include "instruments/standard_names.hpp"
 #include "report/page/motion_page.hpp"
 
 namespace frustum::app {
@@ -184,7 +187,10 @@ void add_chase(Command& tests) {
   add_machine_options(command, *words);
   command.option("--ball", words->ball, "x,y,z of the table ball in the table frame, mm")
       .required();
-  command.option("--at", words->at, "\"A=-90,C=0;A=0,C=60\": rotary poses, degrees").required();
+  command
+      .option("--at", words->at,
+              "\"A=-90,C=0;A=0,C=60\": rotary poses, degrees; maps: those of error maps")
+      .required();
   add_program_options(command, words->nc);
   command.footer(
       "Example: frustum motion chase --machine zx-yac --ball 100,0,100 --at \"A=-90,C=0;A=0,C=60\" "
@@ -234,7 +240,8 @@ void add_touch(Command& tests) {
   command.footer(
       "In --setup, ball is that of the probe, table_ball the artefact. --out also writes "
       "errors.toml, the maps as an error file, touches.csv, which `motion trace` reads, and "
-      "touch.ngc, the program for LinuxCNC.\n"
+      "touch.ngc, touch.nc, touch.mpf and touch.h, the programs for LinuxCNC, Fanuc, Sinumerik and "
+      "Klartext (whose touch.a is the mask of its log).\n"
       "Example: frustum motion touch --machine ac-probe --errors ibaraki-position-dependent "
       "--noise 0.35um --out touch");
   runs_test(command, words);
@@ -285,12 +292,57 @@ void add_trace(Command& tests) {
   command.option("--stroke", words->stroke, "Of the bar to either side, mm (default 1)");
   command.option("--axis", words->axis, "The axis of a line");
   command.option("--machine", words->machine, "The machine of a touch-trigger calibration");
+  command.option(
+      "--balls", words->balls,
+      "\"x,y,z;x,y,z;x,y,z\" of the table balls, mm: the files are R-tests at the poses of "
+      "`chase --at maps`, and the answer are the error maps of A and C (errors.toml)");
   command.option("--noise", words->noise,
                  "Of a touch, two standard deviations, for example 0.35um (default: none)");
   command.option("--out", words->out, "Folder for motion.html and motion.json");
   add_answer_options(command, *words);
   command.footer("Example: frustum motion trace measured.csv --plane XY --length 150");
   command.runs([words] { return show_motion(trace_answer(*words), *words, words->out); });
+}
+
+void add_vectors(Command& tests) {
+  auto words = std::make_shared<MotionWords>();
+  Command command = tests.command(
+      "vectors", "Lines of the rotary axes, as controls correct their kinematics by them");
+  command
+      .option("machine,--machine", words->machine, "Machine file, or the name of a shipped machine")
+      .required();
+  add_error_options(command, words->errors);
+  command.option("--out", words->out, "Folder for motion.html, motion.json and vectors.csv");
+  add_answer_options(command, *words);
+  command.footer(
+      "Example: frustum motion vectors --machine zx-yac --error EX0C=10um --error EB0C=20urad");
+  command.runs([words] { return show_motion(vectors_answer(*words), *words, words->out); });
+}
+
+void add_names(Command& tests) {
+  auto options = std::make_shared<AnswerOptions>();
+  Command command = tests.command("names", "Which test a name of ISO 10791-6 means here");
+  add_answer_options(command, *options);
+  command.footer("Example: frustum motion names");
+  command.runs([options] {
+    TextTable table({"name", "machines", "test", "shows", "attributed by"});
+    Document doc;
+    for (const auto& each : instruments::standard_tests()) {
+      const char* by = each.attributed ? "a maker's paper" : "us, not verified";
+      table.row({std::string(each.name), std::string(each.machines), std::string(each.test),
+                 std::string(each.shows), by});
+      doc[each.name] = Document{{"machines", each.machines},
+                                {"test", each.test},
+                                {"shows", each.shows},
+                                {"attributed_by", by}};
+    }
+    if (options->json) {
+      std::cout << doc.json() << '\n';
+    } else if (!options->quiet) {
+      std::cout << table.text();
+    }
+    return kDone;
+  });
 }
 
 }  // namespace
@@ -308,6 +360,8 @@ void add_motion(Command& program) {
   add_touch(tests);
   add_motion_run(tests);
   add_trace(tests);
+  add_vectors(tests);
+  add_names(tests);
 }
 
 }  // namespace frustum::app

@@ -155,7 +155,7 @@ Parts read_parts(const TomlDocument& document, const MotionReader& read_motion) 
   }
   for (const TomlTable& table : tests) {
     if (auto motion = read_motion(table)) {
-      found.motions.push_back(*std::move(motion));
+      if (*motion) found.motions.push_back(**std::move(motion));
     } else {
       append_all(found.problems, motion.error());
     }

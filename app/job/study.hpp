@@ -53,9 +53,9 @@ struct StudyMotion {
   kinematics::Machine machine;
   calibration::MeasuredMotion motion{};
 };
-// Reads such a table: it is known in a folder above this one. Problems of the table itself stay in
-// it.
-using MotionReader = std::function<Result<StudyMotion>(const TomlTable&)>;
+// Reads such a table: it is known in a folder above this one. Nothing where the table itself is
+// wrong, which stays noted in its document.
+using MotionReader = std::function<Result<std::optional<StudyMotion>>(const TomlTable&)>;
 
 struct Study {
   std::string title{};

@@ -9,9 +9,10 @@
 #include "app/view/text_table.hpp"
 #include "core/decimal.hpp"
 #include "instruments/approach.hpp"
+#include "instruments/ball_maps.hpp"
 #include "instruments/chase_test.hpp"
-#include "instruments/pose_trace_file.hpp"
 #include "instruments/readings.hpp"
+#include "instruments/traces/pose_trace_file.hpp"
 
 namespace frustum::app {
 namespace {
@@ -74,6 +75,12 @@ void draw_vectors(MotionAnswer& answer, const std::vector<instruments::TestPose>
 Result<instruments::MotionTest> chase_of_words(const ChaseWords& words, const MotionSetup& setup) {
   const auto ball = place_of(words.ball, "--ball");
   if (!ball) return ball.error();
+  if (words.at == "maps") {
+    const auto plan = instruments::touch_plan(setup.machine);
+    if (!plan) return plan.error();
+    return instruments::chase_test(setup.machine,
+                                   {*ball, instruments::ball_poses(*plan), setup.tool_length});
+  }
   const auto poses = pose_list(setup.machine, words.at);
   if (!poses) return poses.error();
   return instruments::chase_test(setup.machine, {*ball, *poses, setup.tool_length});

@@ -7,10 +7,10 @@
 
 #include "app/motion/test_file.hpp"
 #include "calibration/identify/measured_tests.hpp"
-#include "instruments/circle_trace_file.hpp"
 #include "instruments/cone_test.hpp"
-#include "instruments/pose_trace_file.hpp"
-#include "instruments/touch_trace_file.hpp"
+#include "instruments/traces/circle_trace_file.hpp"
+#include "instruments/traces/pose_trace_file.hpp"
+#include "instruments/traces/touch_trace_file.hpp"
 
 namespace frustum::app {
 namespace {
@@ -22,7 +22,8 @@ using calibration::MeasuredMotion;
 struct MotionEntry {
   std::string name{};
   std::vector<fs::path> traces{};
-  double noise = 0.0;  // 0: not said
+  double noise = 0.0;    // 0: not said
+  bool planned = false;  // at the test's own angles, where nothing is off
   std::string ball{};
 };
 
@@ -39,7 +40,7 @@ class TestReader {
     auto circle = circle_of_words(words, setup_);
     if (!circle) return circle.error();
     circle->feed.reset();  // lags are terms of the trace
-    const auto all = traces_of(circle->length, words.stroke, circle->plane);
+    const auto all = traces_of(circle->length, words.stroke, circle->plane, circle->angles);
     if (!all) return all.error();
     calibration::BarRuns runs;
     for (const auto& trace : all->traces) {
@@ -55,11 +56,12 @@ class TestReader {
   Result<MeasuredMotion> operator()(const RotaryWords& words) const {
     const auto rotary = rotary_of_words(words, setup_);
     if (!rotary) return rotary.error();
-    return turn(rotary->length, words.stroke, [&](const std::vector<double>& angles) {
-      instruments::RotaryTest test = *rotary;
-      test.angles = angles;
-      return rotary_test(setup_.machine, test);
-    });
+    return turn(rotary->length, words.stroke, rotary->angles,
+                [&](const std::vector<double>& angles) {
+                  instruments::RotaryTest test = *rotary;
+                  test.angles = angles;
+                  return rotary_test(setup_.machine, test);
+                });
   }
 
   Result<MeasuredMotion> operator()(const ConeMotionWords& words) const {
@@ -67,7 +69,7 @@ class TestReader {
     if (!cone) return cone.error();
     const bool normal = cone->sense == instruments::ConeSense::normal;
     return turn(normal ? cone->radius / std::cos(cone->cone_angle) : cone->radius, words.stroke,
-                [&](const std::vector<double>& angles) {
+                cone->angles, [&](const std::vector<double>& angles) {
                   instruments::ConeTest test = *cone;
                   test.angles = angles;
                   return cone_test(setup_.machine, test);
@@ -75,9 +77,13 @@ class TestReader {
   }
 
   Result<MeasuredMotion> operator()(const ChaseWords& words) const {
-    if (entry_.traces.size() != 1) return file_count(entry_, "an R-test");
     const auto test = chase_of_words(words, setup_);
     if (!test) return test.error();
+    if (entry_.planned) {
+      return measured_chase(setup_.machine, head(ball_or("R-test ball")), *test,
+                            std::vector(test->poses.size(), Vec3(Vec3::Zero())));
+    }
+    if (entry_.traces.size() != 1) return file_count(entry_, "an R-test");
     const auto readings = read_pose_trace(entry_.traces.front(), setup_.machine, test->poses);
     if (!readings) return readings.error();
     return measured_chase(setup_.machine, head(ball_or("R-test ball")), *test, *readings);
@@ -93,25 +99,36 @@ class TestReader {
   }
 
   Result<MeasuredMotion> operator()(const DiagonalWords& words) const {
-    if (entry_.traces.size() != 1) return file_count(entry_, "a set of diagonals");
+    if (!entry_.planned && entry_.traces.size() != 1) {
+      return file_count(entry_, "a set of diagonals");
+    }
     const auto lines = diagonals_of_words(words, setup_);
     if (!lines) return lines.error();
-    const auto readings = read_diagonal_trace(entry_.traces.front(), *lines);
-    if (!readings) return readings.error();
+    std::vector<std::vector<double>> readings;
+    for (const auto& [signs, line] : *lines) readings.emplace_back(line.poses.size(), 0.0);
+    if (!entry_.planned) {
+      auto read = read_diagonal_trace(entry_.traces.front(), *lines);
+      if (!read) return read.error();
+      readings = *std::move(read);
+    }
     std::vector<instruments::LineTest> runs;
     std::vector<std::string> names;
     for (const auto& [signs, line] : *lines) {
       runs.push_back(line);
       names.push_back(signs);
     }
-    return measured_diagonals(setup_.machine, head(""), names, runs, *readings);
+    return measured_diagonals(setup_.machine, head(""), names, runs, readings);
   }
 
   Result<MeasuredMotion> operator()(const TouchWords& /*words*/) const {
-    if (entry_.traces.size() != 1) return file_count(entry_, "a touch-trigger calibration");
     const auto plan = instruments::touch_plan(setup_.machine);
     if (!plan) return plan.error();
     const instruments::TouchProbe probe{.tool_length = setup_.tool_length};
+    if (entry_.planned) {
+      const std::vector<double> none(plan->touches.size(), 0.0);
+      return measured_touches(setup_.machine, head(ball_or("probe ball")), *plan, probe, none);
+    }
+    if (entry_.traces.size() != 1) return file_count(entry_, "a touch-trigger calibration");
     const auto readings = read_touches(entry_.traces.front(), *plan, probe.ball_radius);
     if (!readings) return readings.error();
     return measured_touches(setup_.machine, head(ball_or("probe ball")), *plan, probe, *readings);
@@ -127,14 +144,25 @@ class TestReader {
             entry_.noise > 0.0 ? entry_.noise : setup_.instrument.noise};
   }
   [[nodiscard]] Result<instruments::CircleTraces> traces_of(
-      double length, double stroke, std::optional<instruments::Plane> plane) const {
+      double length, double stroke, std::optional<instruments::Plane> plane,
+      const std::vector<double>& own_angles) const {
+    if (entry_.planned) {
+      instruments::CircleTraces all{.length = length};
+      for (const instruments::Sense sense : instruments::kSenses) {
+        if (!plane && sense == instruments::Sense::cw) break;
+        all.traces.push_back({sense, own_angles, std::vector<double>(own_angles.size(), 0.0)});
+      }
+      return all;
+    }
     instruments::CircleTraceWords reading{.plane = plane, .length = length, .stroke = stroke};
     if (!plane) reading.sense_may_be_missing = true;
     return read_circle_traces(entry_.traces, reading);
   }
   template <typename Make>
-  [[nodiscard]] Result<MeasuredMotion> turn(double length, double stroke, const Make& make) const {
-    const auto all = traces_of(length, stroke, std::nullopt);
+  [[nodiscard]] Result<MeasuredMotion> turn(double length, double stroke,
+                                            const std::vector<double>& own_angles,
+                                            const Make& make) const {
+    const auto all = traces_of(length, stroke, std::nullopt, own_angles);
     if (!all) return all.error();
     calibration::BarRuns runs;
     for (const auto& trace : all->traces) {
@@ -149,18 +177,17 @@ class TestReader {
   const MotionSetup& setup_;
 };
 
-}  // namespace
-
-Result<StudyMotion> read_measured_motion(const TomlTable& table) {
+Result<std::optional<StudyMotion>> read_motion(const TomlTable& table, bool planned) {
   const fs::path file = table.file_path("test");
   MotionEntry entry{.name = table.text_or("name", file.stem().string())};
   for (const std::string& trace : table.texts_or("traces", {})) {
     entry.traces.push_back(table.folder() / trace);
   }
-  if (entry.traces.empty()) {
+  entry.planned = planned;
+  if (entry.traces.empty() && !planned) {
     table.fail("traces", "nothing-measured"_id, "no measured readings",
                "traces = [\"trace.csv\"]: what frustum motion trace reads");
-    return Diagnostics{};
+    return std::optional<StudyMotion>{};
   }
   entry.noise = table.length_or("noise", {0.0}, Bound::non_negative).value;
   entry.ball = table.text_or("ball", "");
@@ -175,7 +202,17 @@ Result<StudyMotion> read_measured_motion(const TomlTable& table) {
   if (std::holds_alternative<TouchWords>(*test)) setup->instrument.noise /= 2.0;  // two sd
   auto motion = std::visit(TestReader(entry, *setup), *test);
   if (!motion) return motion.error();
-  return StudyMotion{std::move(setup->machine), *std::move(motion)};
+  return std::optional(StudyMotion{std::move(setup->machine), *std::move(motion)});
+}
+
+}  // namespace
+
+Result<std::optional<StudyMotion>> read_measured_motion(const TomlTable& table) {
+  return read_motion(table, false);
+}
+
+Result<std::optional<StudyMotion>> read_planned_motion(const TomlTable& table) {
+  return read_motion(table, true);
 }
 
 }  // namespace frustum::app

@@ -15,6 +15,8 @@
 
 namespace frustum::app {
 
-[[nodiscard]] Result<StudyMotion> read_measured_motion(const TomlTable& table);
+[[nodiscard]] Result<std::optional<StudyMotion>> read_measured_motion(const TomlTable& table);
+// Of a test that is only planned: no traces, the noise has to be said.
+[[nodiscard]] Result<std::optional<StudyMotion>> read_planned_motion(const TomlTable& table);
 
 }  // namespace frustum::app

@@ -81,6 +81,7 @@ Result<ProgramReadings> readings_by_program(const ProgramWords& words, const Mot
   for (std::size_t k = 0; k < passes->size(); ++k) {
     instruments::MotionTest run = bar.test;
     run.poses = (*passes)[k];
+    run.polynomials.reset();
     auto exact = instruments::bar_readings(actual, run, setup.setup);
     for (std::size_t i = 0; i < exact.size(); ++i) {
       found.largest_difference =

@@ -21,19 +21,24 @@ constexpr double kNothing = 1e-9;
 
 Eigen::Index count_of(std::size_t n) { return static_cast<Eigen::Index>(n); }
 
-// Combinations of rows that `of_mounting` (rows x unknowns) cannot make: each is one row of factor
+// Combinations of rows that the mounting of a test cannot make: each is one row of factor
 // 1, `named`, and shares of rows that the mounting takes.
 struct Kept {
   Eigen::MatrixXd factors{};
   std::vector<Eigen::Index> named{};
 };
 
-Kept without_mounting(const Eigen::MatrixXd& of_mounting) {
-  const Eigen::Index rows = of_mounting.rows();
-  Eigen::MatrixXd m = of_mounting;
+Kept without_mounting(const MeasuredMotion& motion) {
+  Eigen::MatrixXd m = motion.rows * motion.of_mounting;
+  const Eigen::Index rows = m.rows();
+  // In the size of what each unknown does to the readings, so that rounding stays rounding, also
+  // where an unknown does nothing; levers are at most a thousand times as large as shifts.
+  const double readings = std::sqrt(static_cast<double>(motion.of_mounting.rows()));
+  const double largest_size =
+      m.cols() > 0 ? motion.of_mounting.colwise().norm().maxCoeff() / readings : 0.0;
   for (Eigen::Index k = 0; k < m.cols(); ++k) {
-    const double length = m.col(k).norm();
-    if (length > 0.0) m.col(k) /= length;
+    const double size = motion.of_mounting.col(k).norm() / readings;
+    if (largest_size > 0.0) m.col(k) /= std::max(size, 1e-3 * largest_size);
   }
   Kept kept{.factors = Eigen::MatrixXd::Identity(rows, rows)};
   for (Eigen::Index i = 0; i < rows; ++i) kept.named.push_back(i);
@@ -89,7 +94,7 @@ Result<Condensed> condensed(const MeasuredMotion& motion) {
         "state noise = \"0.3um\", the standard deviation of a reading");
   }
   Condensed test{.motion = motion, .mounting = mounting_of(motion)};
-  const Kept kept = without_mounting(motion.rows * motion.of_mounting);
+  const Kept kept = without_mounting(motion);
   if (kept.named.empty()) {
     return error("nothing-measured"_id,
                  fmt::format("test '{}': its mounting can make all that it reads", motion.name),

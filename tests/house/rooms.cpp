@@ -14,7 +14,7 @@ const std::map<std::string, Room>& rooms() {
       {"metrology", {2, {"fit", "points", "plan", "probing", "characteristic", "uncertainty"}}},
       {"kinematics", {3, {"model", "errors", "controller", "timing", "path"}}},
       {"dynamics", {4}},
-      {"instruments", {4}},
+      {"instruments", {4, {"traces"}}},
       {"post", {4, {"planning", "comparing"}}},
       {"lint", {4}},
       {"cutter", {4, {"body", "sweep", "search"}}},

@@ -1,4 +1,4 @@
-#include "instruments/circle_trace_file.hpp"
+#include "instruments/traces/circle_trace_file.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "instruments/trace_table.hpp"
+#include "instruments/traces/trace_table.hpp"
 
 namespace frustum::instruments {
 namespace {

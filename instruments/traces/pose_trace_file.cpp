@@ -1,11 +1,11 @@
-#include "instruments/pose_trace_file.hpp"
+#include "instruments/traces/pose_trace_file.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "core/decimal.hpp"
-#include "instruments/trace_table.hpp"
+#include "instruments/traces/trace_table.hpp"
 
 namespace frustum::instruments {
 namespace {
