@@ -1,15 +1,16 @@
 // Error maps of a table's axes A and C from R-tests with three balls.
 //
 // Model    : an R-test reads how far the tip is from a table ball p: a table that is off by d and
-//            turned by t about the crossing of the axes shows -R^T (d + t x R p). The readings where
-//            both axes are zero say where the balls are and are taken off; least squares over the
-//            balls of each pose gives d and t, which are divided among the axes as touches are
+//            turned by t about the crossing of the axes shows -R^T (d + t x R p). The readings
+//            where both axes are zero say where the balls are and are taken off; least squares over
+//            the balls of each pose gives d and t, which are divided among the axes as touches are
 //            (table_maps.hpp), in the same gauge
 // Units    : mm, rad; balls in the frame of the table, readings as readings.hpp has them
 // Shape    : a list of readings a ball, in the order of the plan's tilts, each with all its turns
-// Errors   : balls-in-line: three balls that leave a turn about their line open, or fewer than three
-// Accuracy : second order in the errors; the offset of the nest in the spindle stays while the table
-//            turns and appears as an error of A and C
+// Errors   : balls-in-line: three balls that leave a turn about their line open, or fewer than
+//            three
+// Accuracy : second order in the errors; the offset of the nest in the spindle stays while the
+//            table turns and appears as an error of A and C
 // Source   : Weikert 2004 (R-test); Ibaraki, Iritani, Matsushita for the division
 #pragma once
 

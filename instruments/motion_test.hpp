@@ -44,8 +44,8 @@ struct MotionTest {
   std::shared_ptr<const AnglePolynomials> polynomials{};
 };
 
-// The poses at angles, of which `pose` gives one; X, Y, Z and the ball are trigonometric polynomials
-// of the angle, the rotary axes stand or turn with it.
+// The poses at angles, of which `pose` gives one; X, Y, Z and the ball are trigonometric
+// polynomials of the angle, the rotary axes stand or turn with it.
 void take_poses(MotionTest& test, std::span<const double> angles,
                 const std::function<TestPose(double)>& pose);
 

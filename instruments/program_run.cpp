@@ -112,8 +112,8 @@ class PassFinder {
   std::optional<Sense> open_{};
 };
 
-// Where in a stretch the parameter is `wanted`: it runs nearly evenly, so that regula falsi is there
-// in a few steps.
+// Where in a stretch the parameter is `wanted`: it runs nearly evenly, so that regula falsi is
+// there in a few steps.
 double u_at(const CommandedMove& move, const TestParameter& parameter, const Stretch& stretch,
             double wanted) {
   double u0 = stretch.u0, u1 = stretch.u1;

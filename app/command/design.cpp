@@ -8,11 +8,11 @@
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
-#include "app/command/design_tests.hpp"
 #include "app/job/identification.hpp"
 #include "app/job/machine_files.hpp"
 #include "app/job/named_amount.hpp"
 #include "app/job/number_list.hpp"
+#include "app/motion/design_tests.hpp"
 #include "app/view/console.hpp"
 #include "app/view/design_view.hpp"
 

@@ -122,8 +122,8 @@ Result<calibration::Recipe> recipe_of(const Study& study,
              : calibration::recipe_case_2(measured, known, variant);
 }
 
-// A squareness that the tests see and that the study neither looks for nor states would be taken for
-// zero, and end up in the errors of the rotary axes.
+// A squareness that the tests see and that the study neither looks for nor states would be taken
+// for zero, and end up in the errors of the rotary axes.
 std::optional<Diagnostics> squareness_not_said(const Study& study, const UnknownCauses& all) {
   const auto& machine = study.machine();
   std::set<std::string> said;

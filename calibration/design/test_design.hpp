@@ -1,8 +1,8 @@
 // Which motion tests to run on a machine so that its errors can be identified.
 //
-// Model    : design() over the tests of a study, each a block of its rows. The offset of the ball in
-//            the spindle is known to `ball`, one standard deviation, beforehand: without that no set
-//            of tests on a table would identify the position of its first axis
+// Model    : design() over the tests of a study, each a block of its rows. The offset of the ball
+//            in the spindle is known to `ball`, one standard deviation, beforehand: without that no
+//            set of tests on a table would identify the position of its first axis
 // Units    : mm, rad
 // Shape    : every subset of at most kMostBlocks tests
 // Errors   : those of observations_of() and design(); a test that is required and not there

@@ -1,8 +1,8 @@
 // Parts and motion tests of one machine in one estimate.
 //
-// Model    : rows of the parts, then those of the tests, which share no noise; unknowns of the parts
-//            are the first of the tests' (motion_observations.hpp), so that parts do not answer to
-//            the balls in the spindle
+// Model    : rows of the parts, then those of the tests, which share no noise; unknowns of the
+//            parts are the first of the tests' (motion_observations.hpp), so that parts do not
+//            answer to the balls in the spindle
 // Units    : mm, rad
 // Shape    : either may be empty
 // Errors   : those of the models

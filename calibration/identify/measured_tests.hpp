@@ -3,9 +3,9 @@
 // Model    : rows of a bar: mean, cos, sin, cos2, sin2 over its angle, by least squares over all
 //            runs; on a circle backlash and servo mismatch are fitted beside. Its mounting: table
 //            ball and length. Of an R-test: x, y, z of every pose; its mounting: the table ball. Of
-//            diagonals: the slope times the length of each; their mounting: the zero of each and one
-//            scale for all. Of touches: the six errors of every pose of A and C; their mounting:
-//            place and tilt of the artefact
+//            diagonals: the slope times the length of each; their mounting: the zero of each and
+//            one scale for all. Of touches: the six errors of every pose of A and C; their
+//            mounting: place and tilt of the artefact
 // Units    : mm, rad
 // Shape    : as named
 // Errors   : arc-too-short: angles that do not separate the harmonics

@@ -3,11 +3,11 @@
 //
 // Model    : with all axes at zero, location errors in. The line of each rotary axis: a point of it
 //            and its direction; +q of an axis of the tool turns the tool about the direction by the
-//            right-hand rule, of an axis of the work the table the other way (ISO 841). The point of
-//            an axis of the work is given as the machine coordinates X, Y, Z at which the gauge point
-//            of the spindle is there; that of an axis of the tool by how far it is from the gauge
-//            point. Points are those of the nominal one nearest to them: along an axis nothing is
-//            known
+//            right-hand rule, of an axis of the work the table the other way (ISO 841). The point
+//            of an axis of the work is given as the machine coordinates X, Y, Z at which the gauge
+//            point of the spindle is there; that of an axis of the tool by how far it is from the
+//            gauge point. Points are those of the nominal one nearest to them: along an axis
+//            nothing is known
 // Units    : mm, unit vectors; frame: bed
 // Shape    : one entry a rotary axis: work chain, then tool chain, each bed outwards
 // Errors   : none; a machine without rotary axes has none

@@ -1,19 +1,21 @@
-// The NC programs of motion tests: what a control runs while a ball bar, an R-test or a laser reads.
+// The NC programs of motion tests: what a control runs while a ball bar, an R-test or a laser
+// reads.
 //
 // Model    : form tcp: the tip as programmed under tool centre point control, in the frame of the
-//            table; axes: positions of all axes, cut so fine that the tip stays within 10 nm. G54 is
-//            at the table ball (a circle: at its centre, in axis positions; a line: where X, Y and Z
-//            are zero), tool 1 is the spindle ball with its length. A bar is approached 1.5 mm too
-//            long, where the program stops for it to be mounted; it is fed in radially, which marks
-//            the start, the parameter grows with its overshoot, the bar is fed out; after a dwell
-//            the same back. Circles are arcs; Klartext has them in XY alone and chords elsewhere.
-//            R-tests and lasers dwell at every pose
+//            table; axes: positions of all axes, cut so fine that the tip stays within 10 nm. G54
+//            is at the table ball (a circle: at its centre, in axis positions; a line: where X, Y
+//            and Z are zero), tool 1 is the spindle ball with its length. A bar is approached 1.5
+//            mm too long, where the program stops for it to be mounted; it is fed in radially,
+//            which marks the start, the parameter grows with its overshoot, the bar is fed out;
+//            after a dwell the same back. Circles are arcs; Klartext has them in XY alone and
+//            chords elsewhere. R-tests and lasers dwell at every pose
 // Units    : mm, rad; feed mm/min, deg/min where only rotary axes move
 // Errors   : axis-overtravel: a place of approach that the machine does not reach; what the dialect
 //            has no words for
-// Accuracy : 1e-6 mm of the words; chords 1e-5 mm (tests/app/motion_program_test.cpp reads them back)
-// Source   : ISO 230-4, ISO 230-2, ISO 10791-6 by their names; approach and dwell as bar makers have
-//            them
+// Accuracy : 1e-6 mm of the words; chords 1e-5 mm (tests/app/motion_program_test.cpp reads them
+//            back)
+// Source   : ISO 230-4, ISO 230-2, ISO 10791-6 by their names; approach and dwell as bar makers
+//            have them
 #pragma once
 
 #include <optional>

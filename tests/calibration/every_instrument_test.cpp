@@ -298,8 +298,8 @@ TEST(EveryInstrumentLaws, PairsAgreeAndTogetherTheyKnowMore) {
       chi_square += agreement.chi_square;
       own_freedom += agreement.degrees_of_freedom;
     }
-    // What two know of the same errors differs by no more than both uncertainties leave: their joint
-    // chi-square exceeds those of each by one for each thing that both know.
+    // What two know of the same errors differs by no more than both uncertainties leave: their
+    // joint chi-square exceeds those of each by one for each thing that both know.
     for (std::size_t a = 0; a < all.size(); ++a) {
       for (std::size_t b = a + 1; b < all.size(); ++b) {
         const Identification both = identified(machine, {&all[a], &all[b]});

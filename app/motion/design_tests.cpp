@@ -1,4 +1,4 @@
-#include "app/command/design_tests.hpp"
+#include "app/motion/design_tests.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "app/job/identification.hpp"
+#include "app/motion/document.hpp"
 #include "app/motion/measured_motion.hpp"
 #include "app/view/shown_unit.hpp"
 #include "app/view/text_table.hpp"
