@@ -7,6 +7,7 @@
 #include "app/job/machine_files.hpp"
 #include "app/motion/circle_dynamics.hpp"
 #include "app/motion/circle_report.hpp"
+#include "app/motion/setup_sheet.hpp"
 #include "app/motion/test_program.hpp"
 #include "core/constants.hpp"
 #include "instruments/approach.hpp"
@@ -72,12 +73,20 @@ Result<double> take_program_readings(const CircleWords& words, const MotionSetup
 
 // To be written, where that is asked for.
 std::optional<Diagnostics> add_circle_program(MotionAnswer& answer, const CircleWords& words,
-                                              const MotionSetup& setup, const CircleTest& circle) {
+                                              const MotionSetup& setup, const CircleTest& circle,
+                                              const MotionTest& test,
+                                              const std::vector<CircleTrace>& traces) {
   if (!words.nc.written()) return std::nullopt;
   auto options = program_options(words.nc);
   if (!options) return options.error();
   if (words.feed) options->feed = *words.feed;
-  return add_program(answer, programs::circle_program(setup.machine, circle, *options));
+  const auto program = programs::circle_program(setup.machine, circle, *options);
+  if (auto problem = add_program(answer, program)) return problem;
+  std::vector<double> readings = traces[0].deviation;
+  readings.insert(readings.end(), traces[1].deviation.begin(), traces[1].deviation.end());
+  add_setup_sheet(answer,
+                  {setup.machine, test, *program, "phi", words.stroke, std::move(readings)});
+  return std::nullopt;
 }
 
 }  // namespace
@@ -151,7 +160,8 @@ Result<MotionAnswer> circle_answer(const CircleWords& words) {
   }
   MotionAnswer answer = answer_of("circle", "Circle in " + words.plane, *setup);
   if (words.nc.run) add_program_run(answer, words.nc, difference);
-  if (auto problem = add_circle_program(answer, words, *setup, *circle)) return *std::move(problem);
+  if (auto problem = add_circle_program(answer, words, *setup, *circle, ccw, traces))
+    return *std::move(problem);
   answer.document["plane"] = words.plane;
   answer.document["length_mm"] = circle->length;
   answer.document["center_mm"] = coordinates(circle->centre);

@@ -48,7 +48,7 @@ Result<MotionAnswer> cone_answer(const ConeMotionWords& words) {
   if (!bar) return bar.error();
   const std::vector<double>& readings = bar->readings;
   MotionAnswer answer = answer_of("cone", fmt::format("Cone path, bar {}", words.sense), *setup);
-  add_bar(answer, words, *bar);
+  add_bar(answer, words, *setup, *test, "phi", *bar);
   answer.document["sense"] = words.sense;
   answer.document["cone_angle_deg"] = words.cone_angle;
   answer.document["inclination_deg"] = words.inclination;

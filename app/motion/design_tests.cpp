@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "app/job/identification.hpp"
+#include "app/job/named_amount.hpp"
 #include "app/motion/document.hpp"
 #include "app/motion/measured_motion.hpp"
 #include "app/view/shown_unit.hpp"

@@ -77,7 +77,7 @@ Result<MotionAnswer> rotary_answer(const RotaryWords& words) {
                                   fmt::format("Axis {}, {} bar held on the {}", words.axis,
                                               words.direction, name_of(rotary->hold)),
                                   *setup);
-  add_bar(answer, words, *bar);
+  add_bar(answer, words, *setup, *test, words.axis, *bar);
   answer.document["axis"] = words.axis;
   answer.document["direction"] = words.direction;
   answer.document["hold"] = name_of(rotary->hold);

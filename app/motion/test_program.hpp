@@ -63,7 +63,9 @@ struct ShownBar {
                                             const std::string& name, const std::string& title,
                                             const instruments::TestParameter& parameter,
                                             const std::string& parameter_name);
-void add_bar(MotionAnswer& answer, const MotionWords& words, const ShownBar& bar);
+void add_bar(MotionAnswer& answer, const MotionWords& words, const MotionSetup& setup,
+             const instruments::MotionTest& test, const std::string& parameter,
+             const ShownBar& bar);
 
 // The program that was run, and how far its readings are from analytic ones.
 void add_program_run(MotionAnswer& answer, const ProgramWords& words, double largest_difference);

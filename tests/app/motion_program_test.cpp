@@ -103,6 +103,28 @@ TEST_F(MotionProgramSystem, ServoLagIsThatOfTheSteadyCircle) {
   }
 }
 
+// What goes where, what is captured, what of travels and stroke it takes.
+TEST_F(MotionProgramSystem, TheSetUpSheetOfABar) {
+  const json circle = document(
+      "circle --machine iwf-bc --plane XY --length 150 --center 0,0,150 --error EC0Y=20urad "
+      "--dialect heidenhain --out out");
+  ASSERT_FALSE(circle.is_null());
+  const json& sheet = circle["setup_sheet"];
+  expect_all(sheet["g54_in_table_mm"], {0.0, 0.0, 150.0}, 1e-9);
+  expect_all(sheet["pass_deg"], {-180.0, 540.0}, 1e-9);
+  expect_all(sheet["travels"]["X"], {-150.0, 150.0}, 1e-6);
+  EXPECT_EQ(sheet["stroke_um"], 1000.0);
+  EXPECT_NEAR(sheet["largest_reading_um"].get<double>(), 1.5, 0.01);
+  EXPECT_NE(read(folder_ / "out/motion.html").find("Set-up sheet"), std::string::npos);
+  EXPECT_NE(read(folder_ / "out/setup.csv").find("circle.h"), std::string::npos);
+  const json tilt = document(
+      "rotary --machine iwf-bc --axis B --direction axial --ball 60,0,100 --dialect fanuc "
+      "--out out");
+  // As far as the travel goes, with overshoot where there is any left.
+  EXPECT_LE(tilt["setup_sheet"]["pass_deg"][0].get<double>(),
+            tilt["setup_sheet"]["capture_deg"][0].get<double>());
+}
+
 TEST_F(MotionProgramSystem, AProgramThatIsNotOfTheTestIsRefused) {
   const std::string circle = "circle --machine iwf-bc --plane XY --length 150 --center 0,0,150";
   ASSERT_FALSE(through(circle, "--dialect fanuc").is_null());

@@ -69,7 +69,6 @@ TEST(AxisVectors, TheGaugePointMeetsTheAxisOfATable) {
     for (const AxisLetter letter : kLinearAxes) {
       q[letter] = each.nominal.point[static_cast<Eigen::Index>(letter)];
     }
-    const ForwardChain nominal(machine, GeometricErrors{}, 0.0);
     // Turning the axis by half a turn leaves a point of it where it was.
     AxisPositions turned = q;
     turned[each.axis] = 1.0;
