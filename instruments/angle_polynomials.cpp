@@ -8,7 +8,7 @@
 namespace frustum::instruments {
 namespace {
 
-constexpr int kDegree = 4;
+constexpr int kDegree = 3;
 constexpr Eigen::Index kTerms = 2 * kDegree + 1;
 constexpr std::size_t kChecks = 5;
 // Below it each angle is evaluated by itself.
@@ -20,17 +20,17 @@ constexpr double kIsOne = 1e-11;
 AnglePolynomials::AnglePolynomials(std::span<const double> angles) {
   if (angles.size() < kWorthwhile) return;
   const auto count = static_cast<Eigen::Index>(angles.size());
-  Eigen::MatrixXd basis(count, kTerms);
+  basis_.resize(count, kTerms);
   const Eigen::Map<const Eigen::ArrayXd> t(angles.data(), count);
-  basis.col(0).setOnes();
-  basis.col(1) = t.cos();
-  basis.col(2) = t.sin();
+  basis_.col(0).setOnes();
+  basis_.col(1) = t.cos();
+  basis_.col(2) = t.sin();
   for (int k = 2; k <= kDegree; ++k) {
     // cos and sin of the sum of angles.
-    const auto c = basis.col(2 * k - 3).array(), s = basis.col(2 * k - 2).array();
-    const auto c1 = basis.col(1).array(), s1 = basis.col(2).array();
-    basis.col(2 * k - 1) = c * c1 - s * s1;
-    basis.col(2 * k) = s * c1 + c * s1;
+    const auto c = basis_.col(2 * k - 3).array(), s = basis_.col(2 * k - 2).array();
+    const auto c1 = basis_.col(1).array(), s1 = basis_.col(2).array();
+    basis_.col(2 * k - 1) = c * c1 - s * s1;
+    basis_.col(2 * k) = s * c1 + c * s1;
   }
   // As Chebyshev has them on an arc, evenly on a turn; checks half way between.
   const auto [least, most] = std::ranges::minmax(angles);
@@ -46,35 +46,37 @@ AnglePolynomials::AnglePolynomials(std::span<const double> angles) {
   for (std::size_t k = 0; k < kChecks; ++k) {
     checks_.push_back(place((1.6 * static_cast<double>(k) + 0.5) * step));
   }
-  Eigen::Matrix<double, kTerms, kTerms> at_nodes;
-  for (Eigen::Index k = 0; k < kTerms; ++k) {
-    at_nodes.row(k) = basis.row(static_cast<Eigen::Index>(nodes_[static_cast<std::size_t>(k)]));
-  }
-  const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, kTerms, kTerms>> factors(at_nodes);
-  if (factors.rank() < kTerms) return;
-  // Row by row of the transposed system, so that an arc, whose coefficients are uncertain, leaves
-  // the values as certain as they are.
-  const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, kTerms, kTerms>> transposed(
-      at_nodes.transpose());
-  weights_ = transposed.solve(basis.transpose()).transpose();
 }
 
-std::optional<Eigen::MatrixXd> AnglePolynomials::at_all(
+std::optional<Eigen::MatrixXd> AnglePolynomials::coefficients(
     Eigen::Index columns, const std::function<Eigen::RowVectorXd(std::size_t)>& values) const {
-  if (weights_.size() == 0) return std::nullopt;
-  Eigen::MatrixXd at_nodes(kTerms, columns);
+  if (basis_.size() == 0) return std::nullopt;
+  Eigen::Matrix<double, kTerms, kTerms> at_nodes;
+  Eigen::MatrixXd known(kTerms, columns);
   for (Eigen::Index k = 0; k < kTerms; ++k) {
-    at_nodes.row(k) = values(nodes_[static_cast<std::size_t>(k)]);
+    const std::size_t node = nodes_[static_cast<std::size_t>(k)];
+    at_nodes.row(k) = basis_.row(static_cast<Eigen::Index>(node));
+    known.row(k) = values(node);
   }
-  const Eigen::RowVectorXd size = at_nodes.cwiseAbs().colwise().maxCoeff();
+  // On an arc coefficients are uncertain, but not what they make between the nodes.
+  const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, kTerms, kTerms>> factors(at_nodes);
+  if (factors.rank() < kTerms) return std::nullopt;
+  const Eigen::MatrixXd found = factors.solve(known);
+  const Eigen::RowVectorXd size = known.cwiseAbs().colwise().maxCoeff();
   for (const std::size_t i : checks_) {
-    const Eigen::RowVectorXd off =
-        weights_.row(static_cast<Eigen::Index>(i)) * at_nodes - values(i);
+    const Eigen::RowVectorXd off = basis_.row(static_cast<Eigen::Index>(i)) * found - values(i);
     for (Eigen::Index k = 0; k < columns; ++k) {
       if (!(std::abs(off[k]) <= kIsOne * std::max(size[k], 1.0))) return std::nullopt;
     }
   }
-  return Eigen::MatrixXd(weights_ * at_nodes);
+  return found;
+}
+
+std::optional<Eigen::MatrixXd> AnglePolynomials::at_all(
+    Eigen::Index columns, const std::function<Eigen::RowVectorXd(std::size_t)>& values) const {
+  const auto found = coefficients(columns, values);
+  if (!found) return std::nullopt;
+  return Eigen::MatrixXd(basis_ * *found);
 }
 
 }  // namespace frustum::instruments

@@ -1,6 +1,6 @@
 // Trigonometric polynomials at thousands of angles, from what they are at a few.
 //
-// Model    : f(t) = a + sum over k <= 4 of b_k cos kt + c_k sin kt. f is evaluated at nine of the
+// Model    : f(t) = a + sum over k <= 3 of b_k cos kt + c_k sin kt. f is evaluated at seven of the
 //            angles, solved for, and evaluated at five more, which decide whether it is one
 // Units    : rad; those of f
 // Shape    : angles x columns
@@ -22,13 +22,16 @@ class AnglePolynomials {
  public:
   explicit AnglePolynomials(std::span<const double> angles);
 
-  // `values(i)`: f at the i-th angle.
+  // `values(i)`: f at the i-th angle. Coefficients of f, of which basis() makes its values.
+  [[nodiscard]] std::optional<Eigen::MatrixXd> coefficients(
+      Eigen::Index columns, const std::function<Eigen::RowVectorXd(std::size_t)>& values) const;
+  [[nodiscard]] const Eigen::MatrixXd& basis() const { return basis_; }
+  // The values themselves.
   [[nodiscard]] std::optional<Eigen::MatrixXd> at_all(
       Eigen::Index columns, const std::function<Eigen::RowVectorXd(std::size_t)>& values) const;
 
  private:
-  // Of the values at the nodes in that at each angle; empty where not worth it.
-  Eigen::MatrixXd weights_{};
+  Eigen::MatrixXd basis_{};  // at each angle; empty where not worth it
   std::vector<std::size_t> nodes_{}, checks_{};
 };
 

@@ -1,7 +1,5 @@
 #include "instruments/reading_gains.hpp"
 
-#include <optional>
-
 #include "kinematics/model/chain.hpp"
 
 namespace frustum::instruments {
@@ -17,9 +15,6 @@ Eigen::Index size_of(std::size_t count) { return static_cast<Eigen::Index>(count
 ReadingGains bar_gains(const Machine& machine, std::span<const MachineError> errors,
                        const MotionTest& test) {
   const Eigen::Index rows = size_of(test.poses.size());
-  ReadingGains gains{.errors = Eigen::MatrixXd(rows, size_of(errors.size())),
-                     .ball = Eigen::MatrixXd(rows, 3),
-                     .of_test = Eigen::MatrixXd(rows, 4)};
   const Eigen::Index columns = size_of(errors.size());
   // u . G, u . R, u
   const auto row_of = [&](std::size_t i) {
@@ -30,16 +25,26 @@ ReadingGains bar_gains(const Machine& machine, std::span<const MachineError> err
         u * nominal_pose(machine, pose.at.q, test.tool_length).rotation, u;
     return row;
   };
-  std::optional<Eigen::MatrixXd> all;
-  if (test.polynomials) all = test.polynomials->at_all(columns + 6, row_of);
-  if (!all) {
-    all.emplace(rows, columns + 6);
-    for (Eigen::Index i = 0; i < rows; ++i) all->row(i) = row_of(static_cast<std::size_t>(i));
-  }
-  gains.errors = all->leftCols(columns);
-  gains.ball = all->middleCols<3>(columns);
-  gains.of_test.leftCols<3>() = -all->rightCols<3>();
+  ReadingGains gains;
+  gains.of_test.resize(rows, 4);
   gains.of_test.col(3).setConstant(-1.0);
+  if (test.polynomials) {
+    if (const auto few = test.polynomials->coefficients(columns + 6, row_of)) {
+      const Eigen::MatrixXd& basis = test.polynomials->basis();
+      gains.errors.noalias() = basis * few->leftCols(columns);
+      gains.ball.noalias() = basis * few->middleCols<3>(columns);
+      gains.of_test.leftCols<3>().noalias() = basis * -few->rightCols<3>();
+      return gains;
+    }
+  }
+  gains.errors.resize(rows, columns);
+  gains.ball.resize(rows, 3);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const Eigen::RowVectorXd row = row_of(static_cast<std::size_t>(i));
+    gains.errors.row(i) = row.head(columns);
+    gains.ball.row(i) = row.segment<3>(columns);
+    gains.of_test.row(i).head<3>() = -row.tail<3>();
+  }
   return gains;
 }
 
