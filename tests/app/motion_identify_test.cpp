@@ -114,9 +114,17 @@ TEST_F(MotionIdentifySystem, BlindMachinesAreWithinTheirIntervals) {
       int variant = 0;
       for (const char* direction : {"axial", "radial", "tangential"}) {
         const std::string name = std::string(axis) + direction;
-        measure(name, fmt::format("rotary --axis {} --direction {} --ball 60,80,40 --length 100 "
-                                  "--seed {}{}",
-                                  axis, direction, ++seed, common));
+        // From one end of the capture to the other, as a bar that measures times samples it.
+        std::string angles;
+        if (variant == 2) {
+          for (int i = 0; i <= 720; ++i) angles += fmt::format("{}{:g}", i > 0 ? "," : "", 0.5 * i);
+        }
+        measure(name,
+                fmt::format("rotary --axis {} --direction {} --ball 60,80,40 --length 100 "
+                            "--seed {}{}{}",
+                            axis, direction, ++seed, common,
+                            std::string(axis) == "C" && !angles.empty() ? " --angles " + angles
+                                                                        : std::string()));
         // A bar measures no angle: of a full turn times are as good.
         rewrite(name, std::string(axis) == "C" ? variant++ : variant++ % 2);
         study += motion(name);
