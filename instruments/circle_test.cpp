@@ -90,12 +90,10 @@ Result<MotionTest> circle_test(const Machine& machine, const CircleTest& circle)
   };
   MotionTest test{
       .table_ball = circle.centre, .bar = circle.length, .tool_length = circle.tool_length};
-  test.poses.reserve(circle.angles.size());
-  for (const double phi : circle.angles) {
-    test.poses.push_back(
-        {phi, axes_at(phi),
-         circle.centre + circle.length * (std::cos(phi) * e1 + std::sin(phi) * e2)});
-  }
+  take_poses(test, circle.angles, [&](double phi) -> TestPose {
+    return {phi, axes_at(phi),
+            circle.centre + circle.length * (std::cos(phi) * e1 + std::sin(phi) * e2)};
+  });
   const auto [least, most] = std::ranges::minmax(circle.angles);
   test.motion = w > 0.0
                     ? TestMotion{axes_at, least - kOvershootOfCircle, most + kOvershootOfCircle}

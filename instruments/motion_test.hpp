@@ -7,9 +7,13 @@
 // Errors : none
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "core/pose.hpp"
+#include "instruments/angle_polynomials.hpp"
 #include "kinematics/model/axes.hpp"
 #include "kinematics/path/approach_direction.hpp"
 
@@ -35,6 +39,14 @@ struct MotionTest {
   Vec3 table_ball = Vec3::Zero();
   double bar = 0.0;  // nominal length; 0: an R-test
   double tool_length = 0.0;
+  // Of the angles that are the poses' parameters, where all that follows from the poses is such a
+  // function of them; whoever changes the poses takes it away.
+  std::shared_ptr<const AnglePolynomials> polynomials{};
 };
+
+// The poses at angles, of which `pose` gives one; X, Y, Z and the ball are trigonometric
+// polynomials of the angle, the rotary axes stand or turn with it.
+void take_poses(MotionTest& test, std::span<const double> angles,
+                const std::function<TestPose(double)>& pose);
 
 }  // namespace frustum::instruments

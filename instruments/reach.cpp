@@ -33,7 +33,11 @@ std::optional<Diagnostic> out_of_reach(const kinematics::Machine& machine, const
     }
   }
   if (!test.motion.axes) return std::nullopt;
-  // Between the samples, which may be few.
+  // Between the samples, where they are few.
+  const auto apart = [](const TestPose& a, const TestPose& b) {
+    return std::abs(b.parameter - a.parameter) > kStep;
+  };
+  if (std::ranges::adjacent_find(test.poses, apart) == test.poses.end()) return std::nullopt;
   const auto [least, most] = std::ranges::minmax_element(test.poses, {}, &TestPose::parameter);
   if (least == test.poses.end()) return std::nullopt;
   const double from = least->parameter, to = most->parameter;

@@ -15,16 +15,35 @@ Eigen::Index size_of(std::size_t count) { return static_cast<Eigen::Index>(count
 ReadingGains bar_gains(const Machine& machine, std::span<const MachineError> errors,
                        const MotionTest& test) {
   const Eigen::Index rows = size_of(test.poses.size());
-  ReadingGains gains{.errors = Eigen::MatrixXd(rows, size_of(errors.size())),
-                     .ball = Eigen::MatrixXd(rows, 3),
-                     .of_test = Eigen::MatrixXd(rows, 4)};
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    const TestPose& pose = test.poses[static_cast<std::size_t>(i)];
+  const Eigen::Index columns = size_of(errors.size());
+  // u . G, u . R, u
+  const auto row_of = [&](std::size_t i) {
+    const TestPose& pose = test.poses[i];
     const Eigen::RowVector3d u = (pose.spindle_ball - test.table_ball).normalized().transpose();
-    gains.errors.row(i) =
-        u * gain_matrix(machine, errors, pose.at.q, test.tool_length).topRows<3>();
-    gains.ball.row(i) = u * nominal_pose(machine, pose.at.q, test.tool_length).rotation;
-    gains.of_test.row(i) << -u, -1.0;
+    Eigen::RowVectorXd row(columns + 6);
+    row << u * gain_matrix(machine, errors, pose.at.q, test.tool_length).topRows<3>(),
+        u * nominal_pose(machine, pose.at.q, test.tool_length).rotation, u;
+    return row;
+  };
+  ReadingGains gains;
+  gains.of_test.resize(rows, 4);
+  gains.of_test.col(3).setConstant(-1.0);
+  if (test.polynomials) {
+    if (const auto few = test.polynomials->coefficients(columns + 6, row_of)) {
+      const Eigen::MatrixXd& basis = test.polynomials->basis();
+      gains.errors.noalias() = basis * few->leftCols(columns);
+      gains.ball.noalias() = basis * few->middleCols<3>(columns);
+      gains.of_test.leftCols<3>().noalias() = basis * -few->rightCols<3>();
+      return gains;
+    }
+  }
+  gains.errors.resize(rows, columns);
+  gains.ball.resize(rows, 3);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const Eigen::RowVectorXd row = row_of(static_cast<std::size_t>(i));
+    gains.errors.row(i) = row.head(columns);
+    gains.ball.row(i) = row.segment<3>(columns);
+    gains.of_test.row(i).head<3>() = -row.tail<3>();
   }
   return gains;
 }
@@ -63,6 +82,7 @@ MotionTest thinned(const MotionTest& test, std::size_t most) {
   if (test.poses.size() <= most) return test;
   MotionTest few = test;
   few.poses.clear();
+  few.polynomials.reset();
   for (std::size_t i = 0; i < most; ++i) {
     few.poses.push_back(test.poses[i * test.poses.size() / most]);
   }

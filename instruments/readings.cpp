@@ -1,5 +1,7 @@
 #include "instruments/readings.hpp"
 
+#include <cmath>
+
 namespace frustum::instruments {
 namespace {
 
@@ -29,6 +31,17 @@ std::vector<double> bar_readings(const kinematics::ForwardChain& actual, const M
   const double length = test.bar + setup.length;
   std::vector<double> readings;
   readings.reserve(test.poses.size());
+  if (test.polynomials && moved.empty() && actual.locations_only()) {
+    const auto from_table_ball =
+        test.polynomials->at_all(3, [&](std::size_t i) -> Eigen::RowVectorXd {
+          return (spindle_ball(actual, test.poses[i], setup) - table_ball).transpose();
+        });
+    if (from_table_ball) {
+      const Eigen::VectorXd all = from_table_ball->rowwise().norm().array() - length;
+      readings.assign(all.begin(), all.end());
+      return readings;
+    }
+  }
   for (std::size_t i = 0; i < test.poses.size(); ++i) {
     Vec3 ball = spindle_ball(actual, test.poses[i], setup);
     if (!moved.empty()) ball += moved[i];

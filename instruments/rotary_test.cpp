@@ -181,12 +181,11 @@ Result<MotionTest> rotary_test(const Machine& machine, const RotaryTest& rotary)
   const BarPath path(machine, rotary);
   MotionTest test{
       .table_ball = rotary.table_ball, .bar = rotary.length, .tool_length = rotary.tool_length};
-  test.poses.reserve(rotary.angles.size());
-  for (const double angle : rotary.angles) {
-    const Vec3 tip = path.tip_at(path.turned(angle));
-    test.poses.push_back(
-        {angle, place_tip(machine, tip, rotary.tool_length, path.turned(angle)), tip});
-  }
+  take_poses(test, rotary.angles, [&](double angle) -> TestPose {
+    const AxisPositions q = path.turned(angle);
+    const Vec3 tip = path.tip_at(q);
+    return {angle, place_tip(machine, tip, rotary.tool_length, q), tip};
+  });
   const auto [least, most] = std::ranges::minmax(rotary.angles);
   test.motion = {[path](double angle) { return path.axes_at(angle); }, least - kOvershoot,
                  most + kOvershoot};

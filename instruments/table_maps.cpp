@@ -69,8 +69,9 @@ Eigen::MatrixXd pose_estimator(const TouchPlan& plan, const PoseTouches& pose,
   return SymmetricFactors(transposed * rows).solve(transposed);
 }
 
-// Divides the poses among the axes.
-TableMaps divided(const TouchPlan& plan, Grid poses) {
+}  // namespace
+
+TableMaps maps_of_poses(const TouchPlan& plan, std::vector<std::vector<ErrorVector>> poses) {
   TableMaps maps{.poses = std::move(poses)};
   for (std::size_t i = 0; i < plan.tilts.size(); ++i) {
     ErrorVector mean = ErrorVector::Zero();
@@ -84,8 +85,6 @@ TableMaps divided(const TouchPlan& plan, Grid poses) {
   }
   return maps;
 }
-
-}  // namespace
 
 TableMaps identified_maps(const TouchPlan& plan, std::span<const double> readings) {
   const auto reference_at = reference_touches(plan);
@@ -101,7 +100,7 @@ TableMaps identified_maps(const TouchPlan& plan, std::span<const double> reading
     }
     poses[pose.tilt][pose.turn] = pose_estimator(plan, pose, reference) * gaps;
   }
-  return divided(plan, std::move(poses));
+  return maps_of_poses(plan, std::move(poses));
 }
 
 TableMaps standard_deviations(const TouchPlan& plan, double noise) {
@@ -120,10 +119,10 @@ TableMaps standard_deviations(const TouchPlan& plan, double noise) {
       responses[reference_at.at(plan.touches[t].point)][pose.tilt][pose.turn] -= response;
     }
   }
-  TableMaps sd = divided(plan, zero_grid(plan));
+  TableMaps sd = maps_of_poses(plan, zero_grid(plan));
   const auto add_square = [](ErrorVector& sum, const ErrorVector& v) { sum += v.cwiseAbs2(); };
   for (Grid& response : responses) {
-    const TableMaps maps = divided(plan, std::move(response));
+    const TableMaps maps = maps_of_poses(plan, std::move(response));
     for (std::size_t i = 0; i < plan.tilts.size(); ++i) {
       add_square(sd.tilt[i], maps.tilt[i]);
       for (std::size_t j = 0; j < plan.turns.size(); ++j) {
@@ -171,7 +170,7 @@ TableMaps visible_maps(const kinematics::Machine& machine,
       seen[i][j] -= turned(rotation, at_zero);
     }
   }
-  return divided(plan, std::move(seen));
+  return maps_of_poses(plan, std::move(seen));
 }
 
 }  // namespace frustum::instruments

@@ -35,6 +35,10 @@ struct TableMaps {
   std::vector<std::vector<ErrorVector>> poses{};  // of the table, likewise
 };
 
+// Poses by the positions of A and C, divided among the axes.
+[[nodiscard]] TableMaps maps_of_poses(const TouchPlan& plan,
+                                      std::vector<std::vector<ErrorVector>> poses);
+
 // `readings`: of the plan's touches, outward along the nominal normals (touch_test.hpp).
 [[nodiscard]] TableMaps identified_maps(const TouchPlan& plan, std::span<const double> readings);
 

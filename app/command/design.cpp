@@ -10,7 +10,9 @@
 #include "app/command/commands.hpp"
 #include "app/job/identification.hpp"
 #include "app/job/machine_files.hpp"
+#include "app/job/named_amount.hpp"
 #include "app/job/number_list.hpp"
+#include "app/motion/design_tests.hpp"
 #include "app/view/console.hpp"
 #include "app/view/design_view.hpp"
 
@@ -23,6 +25,7 @@ struct DesignOptions : AnswerOptions {
   std::string machine{};
   std::vector<std::string> patterns{}, required{}, unknowns{};
   std::vector<std::string> known{}, limits{};
+  std::string study{};
   std::string criterion = "d";
   std::string e0 = "0.5 um";
   double l_per_um = 600.0;
@@ -31,37 +34,10 @@ struct DesignOptions : AnswerOptions {
   double raise = 0.0;
 };
 
-// "beta_CA=5urad": an error's name and an amount that suits it, 0 or more.
-struct NamedAmount {
-  std::string name{};
-  double amount = 0.0;
-};
-Result<NamedAmount> named_amount(const kinematics::Machine& machine, const std::string& text,
-                                 const char* option) {
-  const auto equals = text.find('=');
-  if (equals == std::string::npos) {
-    return error("malformed-option"_id, fmt::format("{} {}: expected NAME=VALUE", option, text),
-                 "for example gamma_YX=5urad");
-  }
-  const auto parameter = trials::Parameter::named(machine, text.substr(0, equals));
-  if (!parameter) return parameter.error();
-  const std::string amount = text.substr(equals + 1);
-  double value = 0.0;
-  if (amount == "0") return NamedAmount{parameter->name, value};  // of either kind
-  if (parameter->angular) {
-    const auto angle = parse_angle(amount);
-    if (!angle) return angle.error();
-    value = angle->value;
-  } else {
-    const auto length = parse_length(amount);
-    if (!length) return length.error();
-    value = length->value;
-  }
-  if (!(value >= 0.0) || !std::isfinite(value)) {
-    return error("out-of-range"_id, fmt::format("{} {}: must be 0 or more", option, text),
-                 "a standard deviation has no sign");
-  }
-  return NamedAmount{parameter->name, value};
+DesignCriterion criterion_of(const DesignOptions& o) {
+  return o.criterion == "d"   ? DesignCriterion::d_optimal
+         : o.criterion == "a" ? DesignCriterion::a_optimal
+                              : DesignCriterion::worst_unknown;
 }
 
 // Location errors of the rotary axes, under the machine's own symbols when it has any.
@@ -138,9 +114,7 @@ class Request {
 
   [[nodiscard]] calibration::StepDesignOptions choice() {
     calibration::StepDesignOptions choice;
-    choice.criterion = options_.criterion == "d"   ? DesignCriterion::d_optimal
-                       : options_.criterion == "a" ? DesignCriterion::a_optimal
-                                                   : DesignCriterion::worst_unknown;
+    choice.criterion = criterion_of(options_);
     choice.among = options_.patterns;
     choice.required = options_.required;
     for (const std::string& text : options_.limits) {
@@ -208,6 +182,16 @@ std::vector<std::string> taken_as_zero(const kinematics::Machine& machine,
 }
 
 int show_design(const DesignOptions& o) {
+  if (!o.study.empty()) {
+    TestDesignWords words{o, o.study, o.required, o.limits, criterion_of(o)};
+    return show_test_design(words);
+  }
+  if (o.machine.empty()) {
+    return refuse(
+        {error("missing-option"_id, "neither a machine nor a study is given",
+               "frustum design MACHINE for step patterns, --study FILE for motion tests")},
+        o);
+  }
   const auto machine = load_machine(o.machine, ".");
   if (!machine) return refuse(machine.error(), o);
   Request request(o, *machine);
@@ -237,10 +221,14 @@ int show_design(const DesignOptions& o) {
 
 void add_design(Command& program) {
   auto o = std::make_shared<DesignOptions>();
-  Command command = program.command(
-      "design", "Which step patterns to cut so that a machine's errors can be separated");
-  command.option("machine,--machine", o->machine, "Machine file, or the name of a shipped machine")
-      .required();
+  Command command = program.command("design",
+                                    "Which step patterns to cut, or motion tests to run, so that a "
+                                    "machine's errors can be separated");
+  command.option("machine,--machine", o->machine, "Machine file, or the name of a shipped machine");
+  command.option(
+      "--study", o->study,
+      "Choose from the motion tests of a study instead of step patterns: [[motion]] with test "
+      "and noise; unknowns and what is known are the study's");
   command.option("--patterns", o->patterns, "Choose from these only (default: all within travel)")
       .separated_by(',');
   command.option("--require", o->required, "In every set: these are cut anyway").separated_by(',');

@@ -4,6 +4,7 @@
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
+#include "app/motion/measured_motion.hpp"
 #include "app/view/console.hpp"
 #include "app/view/identification_view.hpp"
 
@@ -15,7 +16,7 @@ struct IdentifyOptions : AnswerOptions {
 };
 
 int show_identification(const IdentifyOptions& options) {
-  const auto study = load_study(options.study);
+  const auto study = load_study(options.study, read_measured_motion);
   if (!study) return refuse(study.error(), options);
   const auto result =
       with_progress(options, "identify", [&](report::Progress&) { return identify_study(*study); });
@@ -41,8 +42,12 @@ int show_identification(const IdentifyOptions& options) {
 void add_identify(Command& program) {
   auto o = std::make_shared<IdentifyOptions>();
   Command command = program.command(
-      "identify", "Machine errors that explain measured test pieces, with uncertainties");
-  command.option("STUDY", o->study, "Study file: parts, measured values, what is known").required();
+      "identify",
+      "Machine errors that explain measured test pieces and motion tests, with uncertainties");
+  command
+      .option("STUDY", o->study,
+              "Study file: parts and motion tests, what was measured, what is known")
+      .required();
   add_answer_options(command, *o);
   command.footer(
       "Exit code 1: errors that the measurements do not identify, or measurements that the machine "

@@ -1,4 +1,5 @@
 // frustum motion: motion tests on the virtual machine, and measured traces.
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
@@ -6,15 +7,23 @@
 #include "app/command/commands.hpp"
 #include "app/motion/test_file.hpp"
 #include "app/motion/trace_motion.hpp"
+#include "app/motion/vectors_motion.hpp"
+#include "app/view/text_table.hpp"
 #include "core/file_set.hpp"
+#include "core/whole_file.hpp"
+#include "instruments/standard_names.hpp"
 #include "report/page/motion_page.hpp"
 
 namespace frustum::app {
 namespace {
 
 int show_motion(const Result<MotionAnswer>& answer, const AnswerOptions& options,
-                const std::string& out) {
+                const std::string& out, const std::string& program = {}) {
   if (!answer) return refuse(answer.error(), options);
+  if (answer->program && !program.empty()) {
+    const auto written = write_whole_file(program, answer->program->text);
+    if (!written) return refuse(written.error(), options);
+  }
   if (!out.empty()) {
     std::vector<std::string> names{"motion.json", "motion.html"};
     for (const auto& [name, bytes] : answer->files) names.push_back(name);
@@ -83,11 +92,31 @@ template <typename Words>
 void runs_test(Command& command, const std::shared_ptr<Words>& words) {
   command.runs([words] {
     auto answer = answer_of(TestWords(*words));
-    if (answer && !words->out.empty()) {
-      answer->files["test.toml"] = test_toml(*words, words->out);
+    Words named = *words;
+    if (answer && answer->program && words->nc.file.empty() && !words->out.empty()) {
+      named.nc.file = (std::filesystem::path(words->out) / answer->program->name).string();
+      answer->files[answer->program->name] = answer->program->text;
     }
-    return show_motion(answer, *words, words->out);
+    if (answer && !words->out.empty()) {
+      answer->files["test.toml"] = test_toml(named, words->out);
+    }
+    return show_motion(answer, *words, words->out, words->nc.file);
   });
+}
+
+void add_program_options(Command& command, ProgramWords& words) {
+  command.option("--program", words.file,
+                 "NC program of the test, to be written (default: with --dialect and --out beside "
+                 "the other files)");
+  command.option("--dialect", words.dialect, "fanuc (default), linuxcnc, sinumerik or heidenhain")
+      .one_of({"fanuc", "linuxcnc", "sinumerik", "heidenhain"});
+  command
+      .option("--form", words.form,
+              "tcp: tip and rotary axes under tool centre point control (default); axes: positions "
+              "of all axes")
+      .one_of({"tcp", "axes"});
+  command.option("--program-feed", words.feed,
+                 "mm/min, deg/min where only rotary axes move (default 1000)");
 }
 
 void add_circle(Command& tests) {
@@ -108,6 +137,7 @@ void add_circle(Command& tests) {
   command.option("--dynamics", words->dynamics,
                  "quasi_static or linear: instead of that lag, masses and springs of the machine "
                  "move the tip (default: off)");
+  add_program_options(command, words->nc);
   command.footer(
       "Example: frustum motion circle --machine iwf-bc --plane XY --length 150 --center 0,0,150 "
       "--error EC0Y=30urad");
@@ -133,6 +163,7 @@ void add_rotary(Command& tests) {
   command.option("--angles", words->angles,
                  "0,30,60: degrees (default: 3600 midpoints of a full turn or of the travel)");
   add_run_options(command, *words, "deg/min of the axis, for --dynamics");
+  add_program_options(command, words->nc);
   command.footer(
       "Example: frustum motion rotary --machine zx-yac --axis C --direction radial --ball "
       "100,0,100 --length 150 --error EX0C=10um");
@@ -155,6 +186,7 @@ void add_cone_motion(Command& tests) {
   command.option("--angles", words->angles,
                  "0,30,60: phi, degrees (default: 3600 midpoints of a full turn)");
   add_run_options(command, *words, kFeedOfTheTip);
+  add_program_options(command, words->nc);
   command.footer(
       "Example: frustum motion cone --machine iwf-bc --cone-angle 45 --inclination 30 --radius 40 "
       "--center=-65,0,150 --sense normal --error EX0C=10um");
@@ -167,8 +199,12 @@ void add_chase(Command& tests) {
   add_machine_options(command, *words);
   command.option("--ball", words->ball, "x,y,z of the table ball in the table frame, mm")
       .required();
-  command.option("--at", words->at, "\"A=-90,C=0;A=0,C=60\": rotary poses, degrees").required();
+  command
+      .option("--at", words->at,
+              "\"A=-90,C=0;A=0,C=60\": rotary poses, degrees; maps: those of error maps")
+      .required();
   add_run_options(command, *words, "deg/min from pose to pose, for --dynamics");
+  add_program_options(command, words->nc);
   command.footer(
       "Example: frustum motion chase --machine zx-yac --ball 100,0,100 --at \"A=-90,C=0;A=0,C=60\" "
       "--error EX0C=10um");
@@ -185,6 +221,7 @@ void add_line(Command& tests) {
   command.option("--runs", words->runs, "In each direction (default 5)").within(2, 1000);
   command.option("--at", words->at, "\"Y=100,Z=50\": the other axes, mm and degrees (default 0)");
   add_run_options(command, *words, kFeedOfTheTip);
+  add_program_options(command, words->nc);
   command.footer(
       "Example: frustum motion line --machine zx-yac --axis X --targets=-180,-97,-31,42,111,178 "
       "--error \"EXX=linear 10um + reversal 3um\"");
@@ -200,6 +237,7 @@ void add_diagonal(Command& tests) {
   command.option("--points", words->points, "On each diagonal (default 11)").within(2, 100000);
   command.option("--at", words->at, "\"Z=50,B=30\": the other axes, mm and degrees (default 0)");
   add_run_options(command, *words, kFeedOfTheTip);
+  add_program_options(command, words->nc);
   command.footer(
       "Example: frustum motion diagonal --machine iwf-bc --box \"X=-200:200,Y=-150:150,Z=0:300\" "
       "--error EC0Y=20urad");
@@ -217,7 +255,8 @@ void add_touch(Command& tests) {
   command.footer(
       "In --setup, ball is that of the probe, table_ball the artefact. --out also writes "
       "errors.toml, the maps as an error file, touches.csv, which `motion trace` reads, and "
-      "touch.ngc, the program for LinuxCNC.\n"
+      "touch.ngc, touch.nc, touch.mpf and touch.h, the programs for LinuxCNC, Fanuc, Sinumerik and "
+      "Klartext (whose touch.a is the mask of its log).\n"
       "Example: frustum motion touch --machine ac-probe --errors ibaraki-position-dependent "
       "--noise 0.35um --out touch");
   runs_test(command, words);
@@ -226,6 +265,7 @@ void add_touch(Command& tests) {
 struct RunWords : AnswerOptions {
   std::string file{};
   ErrorWords errors{};
+  bool servo_lag = false;
   std::string out{};
 };
 
@@ -234,6 +274,9 @@ void add_motion_run(Command& tests) {
   Command command = tests.command("run", "A motion test of a file, as --out writes one");
   command.option("file", words->file, "test.toml").required();
   add_error_options(command, words->errors);
+  command.flag("--servo-lag", words->servo_lag,
+               "While the NC program of the test runs, the axes follow late by their servo gains "
+               "(a circle with a feed: always)");
   command.option("--out", words->out, "Folder for motion.html, motion.json and trace.csv");
   add_answer_options(command, *words);
   command.footer("Example: frustum motion run ballbar/test.toml --error EC0Y=30urad");
@@ -241,6 +284,7 @@ void add_motion_run(Command& tests) {
     auto test = read_test_file(words->file);
     if (!test) return refuse(test.error(), *words);
     common_words(*test).errors = words->errors;
+    if (words->servo_lag) common_words(*test).nc.servo_lag = true;
     return show_motion(answer_of(*test), *words, words->out);
   });
 }
@@ -263,12 +307,57 @@ void add_trace(Command& tests) {
   command.option("--stroke", words->stroke, "Of the bar to either side, mm (default 1)");
   command.option("--axis", words->axis, "The axis of a line");
   command.option("--machine", words->machine, "The machine of a touch-trigger calibration");
+  command.option(
+      "--balls", words->balls,
+      "\"x,y,z;x,y,z;x,y,z\" of the table balls, mm: the files are R-tests at the poses of "
+      "`chase --at maps`, and the answer are the error maps of A and C (errors.toml)");
   command.option("--noise", words->noise,
                  "Of a touch, two standard deviations, for example 0.35um (default: none)");
   command.option("--out", words->out, "Folder for motion.html and motion.json");
   add_answer_options(command, *words);
   command.footer("Example: frustum motion trace measured.csv --plane XY --length 150");
   command.runs([words] { return show_motion(trace_answer(*words), *words, words->out); });
+}
+
+void add_vectors(Command& tests) {
+  auto words = std::make_shared<MotionWords>();
+  Command command = tests.command(
+      "vectors", "Lines of the rotary axes, as controls correct their kinematics by them");
+  command
+      .option("machine,--machine", words->machine, "Machine file, or the name of a shipped machine")
+      .required();
+  add_error_options(command, words->errors);
+  command.option("--out", words->out, "Folder for motion.html, motion.json and vectors.csv");
+  add_answer_options(command, *words);
+  command.footer(
+      "Example: frustum motion vectors --machine zx-yac --error EX0C=10um --error EB0C=20urad");
+  command.runs([words] { return show_motion(vectors_answer(*words), *words, words->out); });
+}
+
+void add_names(Command& tests) {
+  auto options = std::make_shared<AnswerOptions>();
+  Command command = tests.command("names", "Which test a name of ISO 10791-6 means here");
+  add_answer_options(command, *options);
+  command.footer("Example: frustum motion names");
+  command.runs([options] {
+    TextTable table({"name", "machines", "test", "shows", "attributed by"});
+    Document doc;
+    for (const auto& each : instruments::standard_tests()) {
+      const char* by = each.attributed ? "a maker's paper" : "us, not verified";
+      table.row({std::string(each.name), std::string(each.machines), std::string(each.test),
+                 std::string(each.shows), by});
+      doc[each.name] = Document{{"machines", each.machines},
+                                {"test", each.test},
+                                {"shows", each.shows},
+                                {"attributed_by", by}};
+    }
+    if (options->json) {
+      std::cout << doc.json() << '\n';
+    } else if (!options->quiet) {
+      std::cout << table.text();
+    }
+    return kDone;
+  });
 }
 
 }  // namespace
@@ -286,6 +375,8 @@ void add_motion(Command& program) {
   add_touch(tests);
   add_motion_run(tests);
   add_trace(tests);
+  add_vectors(tests);
+  add_names(tests);
 }
 
 }  // namespace frustum::app

@@ -7,6 +7,7 @@
 
 #include "app/job/trial_run.hpp"
 #include "calibration/design/step_geometry.hpp"
+#include "calibration/identify/joint_observations.hpp"
 #include "calibration/identify/refinement.hpp"
 #include "trials/trial.hpp"
 
@@ -27,6 +28,7 @@ metrology::CmmModel ordinary_cmm() {
 }
 
 void add_tool_radius(const Study& study, UnknownCauses& all) {
+  if (study.parts.empty()) return;
   const trials::Parameter radius{std::string(trials::kToolRadius), false, std::nullopt};
   const bool is_listed = std::any_of(all.unknowns.begin(), all.unknowns.end(),
                                      [&](const Unknown& u) { return u.name == radius.name; });
@@ -72,11 +74,18 @@ Result<std::optional<Remedy>> remedy_for(const Study& study,
                                                      study.cmm.value_or(ordinary_cmm()));
   // On a machine that cuts no step patterns there is nothing to suggest.
   if (!catalogue) return std::optional<Remedy>();
+  // Patterns do not answer to the balls of motion tests.
+  const auto unknowns = static_cast<Eigen::Index>(measured.unknowns.size());
   std::set<std::string> cut;
   for (const calibration::Row& row : measured.rows) cut.insert(row.group);
   std::vector<calibration::Candidate> candidates;
   for (std::size_t i = 0; i < catalogue->patterns.size(); ++i) {
-    if (!cut.contains(catalogue->patterns[i].name)) candidates.push_back(catalogue->candidate(i));
+    if (cut.contains(catalogue->patterns[i].name)) continue;
+    calibration::Candidate candidate = catalogue->candidate(i);
+    const Eigen::Index own = candidate.gain.cols();
+    candidate.gain.conservativeResize(Eigen::NoChange, unknowns);
+    candidate.gain.rightCols(unknowns - own).setZero();
+    candidates.push_back(std::move(candidate));
   }
   const auto separation =
       calibration::separating(measured, candidates, {study.floor_length, study.floor_angle});
@@ -112,6 +121,42 @@ Result<calibration::Recipe> recipe_of(const Study& study,
   return study.recipe == RecipeChoice::case_1
              ? calibration::recipe_case_1(measured, known, variant)
              : calibration::recipe_case_2(measured, known, variant);
+}
+
+// A squareness that the tests see and that the study neither looks for nor states would be taken
+// for zero, and end up in the errors of the rotary axes.
+std::optional<Diagnostics> squareness_not_said(const Study& study, const UnknownCauses& all) {
+  const auto& machine = study.machine();
+  std::set<std::string> said;
+  for (const Unknown& unknown : all.unknowns) {
+    const auto alias = machine.aliases().find(unknown.name);
+    said.insert(alias == machine.aliases().end() ? unknown.name : alias->second.error.text());
+  }
+  Diagnostics problems;
+  for (const char* name : {"EC0Y", "EA0Z", "EB0Z"}) {
+    const auto error_name = *kinematics::ErrorName::parse(name);
+    if (said.contains(name) || machine.joint(error_name.axis) == nullptr ||
+        machine.refused(error_name)) {
+      continue;
+    }
+    const auto cause = trials::Parameter::named(machine, name);
+    if (!cause) continue;
+    const auto seen = calibration::observations_of(
+        machine, study.motions, {{.name = name, .angular = true}}, {{*cause, std::nullopt}});
+    constexpr double kSeen = 1e-3;  // mm per rad: a nanometre at a milliradian
+    if (!seen || seen->observations.gain.cwiseAbs().maxCoeff() < kSeen) continue;
+    problems.push_back(error(
+        "squareness-not-said"_id,
+        fmt::format("the motion tests depend on the squareness {}, which is neither unknown nor "
+                    "known: taken for zero it would go into the errors of the rotary axes",
+                    name),
+        fmt::format("add it to unknown.errors, or state known.{} = {{ value = \"0 urad\", "
+                    "uncertainty = \"5 urad\" }}",
+                    name)));
+  }
+  if (problems.empty()) return std::nullopt;
+  for (Diagnostic& each : problems) each.file = study.file.string();
+  return problems;
 }
 
 Result<calibration::Refinement> estimate(const Study& study,
@@ -152,14 +197,32 @@ Result<UnknownCauses> unknown_causes(const kinematics::Machine& machine,
   return all;
 }
 
+Result<calibration::PieceObservations> observations_of_study(const Study& study,
+                                                             const UnknownCauses& all) {
+  calibration::PieceObservations pieces;
+  if (!study.parts.empty()) {
+    const auto measured = pieces_of(study);
+    if (!measured) return measured.error();
+    auto of_parts =
+        calibration::observations_of(study.machine(), *measured, all.unknowns, all.causes);
+    if (!of_parts) return of_parts.error();
+    pieces = *std::move(of_parts);
+  }
+  if (study.motions.empty()) return pieces;
+  if (auto problem = squareness_not_said(study, all)) return *std::move(problem);
+  std::vector<Unknown> unknowns = all.unknowns;
+  const auto balls = calibration::ball_unknowns(study.motions);
+  unknowns.insert(unknowns.end(), balls.begin(), balls.end());
+  auto motions = calibration::observations_of(study.machine(), study.motions, unknowns, all.causes);
+  if (!motions) return motions.error();
+  return calibration::joint_observations(std::move(pieces), *std::move(motions));
+}
+
 Result<StudyResult> identify_study(const Study& study) {
   auto all = unknown_causes(study.machine(), study.unknowns, study.known);
   if (!all) return std::move(all).error();
   add_tool_radius(study, *all);
-  const auto pieces = pieces_of(study);
-  if (!pieces) return pieces.error();
-  const auto observations =
-      calibration::observations_of(study.machine(), *pieces, all->unknowns, all->causes);
+  const auto observations = observations_of_study(study, *all);
   if (!observations) return observations.error();
   auto refined = estimate(study, *observations);
   if (!refined) return std::move(refined).error();

@@ -119,28 +119,46 @@ std::vector<std::string> default_unknowns(const kinematics::Machine& machine) {
   return names;
 }
 
-void check_machines(const std::vector<StudyPart>& parts, const TomlTable& root) {
-  std::set<std::string> machines;
-  for (const StudyPart& part : parts) machines.insert(part.job.machine.name());
+void check_machines(const std::vector<std::string>& names, const TomlTable& root) {
+  const std::set<std::string> machines(names.begin(), names.end());
   if (machines.size() > 1) {
-    root.fail("part", "different-machines"_id,
-              fmt::format("the parts were cut on different machines: {} and {}", *machines.begin(),
-                          *machines.rbegin()),
+    root.fail(root.has("part") ? "part" : "motion", "different-machines"_id,
+              fmt::format("the parts and tests are of different machines: {} and {}",
+                          *machines.begin(), *machines.rbegin()),
               "one study identifies one machine");
   }
 }
 
 struct Parts {
   std::vector<StudyPart> parts{};
+  std::vector<StudyMotion> motions{};
   Diagnostics problems{};
+
+  [[nodiscard]] bool empty() const { return parts.empty() && motions.empty(); }
+  [[nodiscard]] std::vector<std::string> machines() const {
+    std::vector<std::string> names;
+    for (const StudyPart& part : parts) names.push_back(part.job.machine.name());
+    for (const StudyMotion& motion : motions) names.push_back(motion.machine.name());
+    return names;
+  }
 };
 
-Parts read_parts(const TomlDocument& document) {
+Parts read_parts(const TomlDocument& document, const MotionReader& read_motion) {
   Parts found;
   const std::vector<TomlTable> tables = document.root().tables("part");
-  if (tables.empty()) {
+  std::vector<TomlTable> tests;
+  if (read_motion && document.root().has("motion")) tests = document.root().tables("motion");
+  if (tables.empty() && tests.empty()) {
     document.root().fail("part", "nothing-measured"_id, "no part to learn from",
-                         "add [[part]] with name, job and measured");
+                         "add [[part]] with name, job and measured, or [[motion]] with test and "
+                         "traces");
+  }
+  for (const TomlTable& table : tests) {
+    if (auto motion = read_motion(table)) {
+      if (*motion) found.motions.push_back(**std::move(motion));
+    } else {
+      append_all(found.problems, motion.error());
+    }
   }
   for (const TomlTable& table : tables) {
     if (auto part = read_part(table, document.folder(), found.problems)) {
@@ -198,27 +216,28 @@ void read_unknowns(const TomlTable& root, const kinematics::Machine& machine, St
 
 }  // namespace
 
-Result<Study> load_study(const fs::path& file) {
+Result<Study> load_study(const fs::path& file, const MotionReader& read_motion) {
   auto document = TomlDocument::load(file);
   if (!document) return document.error();
   const TomlTable& root = document->root();
-  if (!root.has("part") && (root.has("job") || root.has("target"))) {
+  const bool measured = root.has("part") || root.has("motion");
+  if (!measured && (root.has("job") || root.has("target"))) {
     Diagnostic population = error(
         "not-a-study"_id, "this is a study of a population, not of measured parts",
         "frustum study reads it; frustum identify wants [[part]] with name, job and measured");
     population.file = file.string();
     return population;
   }
-  if (!root.has("part") && root.has("program") && root.has("machine")) {
+  if (!measured && root.has("program") && root.has("machine")) {
     Diagnostic no_study = error("not-a-study"_id, "this is a job, not a study",
                                 "a study names jobs and what was measured of them: [[part]] with "
                                 "name, job and measured");
     no_study.file = file.string();
     return no_study;
   }
-  Parts parts = read_parts(*document);
+  Parts parts = read_parts(*document, read_motion);
   // Without a machine nothing else of the file can be judged.
-  if (has_error(parts.problems) || parts.parts.empty()) {
+  if (has_error(parts.problems) || parts.empty()) {
     for (const char* key : {"title", "unknown", "known", "uncertainty", "method", "compare"}) {
       (void)root.has(key);  // known, though not read
     }
@@ -230,8 +249,10 @@ Result<Study> load_study(const fs::path& file) {
   Study study;
   study.file = file;
   study.title = root.text_or("title", "");
+  check_machines(parts.machines(), root);
   study.parts = std::move(parts.parts);
-  check_machines(study.parts, root);
+  study.on = study.parts.empty() ? parts.motions.front().machine : study.parts.front().job.machine;
+  for (StudyMotion& each : parts.motions) study.motions.push_back(std::move(each.motion));
   read_unknowns(root, study.machine(), study);
   if (const auto table = root.table_if("uncertainty")) read_uncertainty(*table, study);
   if (const auto table = root.table_if("method")) {

@@ -1,4 +1,5 @@
-// A study file: parts that were cut and measured, what is to be found, what is known.
+// A study file: parts that were cut and measured, motion tests that were measured, what is to be
+// found, what is known.
 //
 // Units: as people write them ("-24.6 um", "30 urad", "-0.0034 deg"); inside mm and rad. Paths are
 // relative to the file.
@@ -7,14 +8,17 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/job/job.hpp"
+#include "calibration/identify/motion_observations.hpp"
 #include "calibration/identify/piece_observations.hpp"
 #include "core/result.hpp"
+#include "core/toml_document.hpp"
 #include "metrology/cmm.hpp"
 
 namespace frustum::app {
@@ -44,10 +48,20 @@ struct OtherEstimate {
 enum class ToolRadius { common, each, exact };     // one for all parts; one a part; as the jobs say
 enum class RecipeChoice { none, case_1, case_2 };  // of the step patterns' paper
 
+// A motion test on a machine, as a table [[motion]] of the file says.
+struct StudyMotion {
+  kinematics::Machine machine;
+  calibration::MeasuredMotion motion{};
+};
+// Reads such a table: it is known in a folder above this one. Nothing where the table itself is
+// wrong, which stays noted in its document.
+using MotionReader = std::function<Result<std::optional<StudyMotion>>(const TomlTable&)>;
+
 struct Study {
   std::string title{};
   std::filesystem::path file{};
-  std::vector<StudyPart> parts{};  // at least one; all on the same machine
+  std::vector<StudyPart> parts{};  // parts and tests: at least one, all on the same machine
+  std::vector<calibration::MeasuredMotion> motions{};
   std::vector<std::string> unknowns{};
   std::vector<KnownError> known{};
   ToolRadius tool_radius = ToolRadius::common;
@@ -58,9 +72,11 @@ struct Study {
   RecipeChoice recipe = RecipeChoice::none;
   std::vector<OtherEstimate> others{};
 
-  [[nodiscard]] const kinematics::Machine& machine() const { return parts.front().job.machine; }
+  std::optional<kinematics::Machine> on{};
+  [[nodiscard]] const kinematics::Machine& machine() const { return *on; }
 };
 
-[[nodiscard]] Result<Study> load_study(const std::filesystem::path& file);
+[[nodiscard]] Result<Study> load_study(const std::filesystem::path& file,
+                                       const MotionReader& read_motion = {});
 
 }  // namespace frustum::app

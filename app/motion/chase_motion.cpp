@@ -6,11 +6,14 @@
 #include <cmath>
 
 #include "app/motion/motion_dynamics.hpp"
+#include "app/motion/test_program.hpp"
 #include "app/view/text_table.hpp"
 #include "core/decimal.hpp"
 #include "instruments/approach.hpp"
+#include "instruments/ball_maps.hpp"
 #include "instruments/chase_test.hpp"
 #include "instruments/readings.hpp"
+#include "instruments/traces/pose_trace_file.hpp"
 #include "kinematics/model/inverse.hpp"
 
 namespace frustum::app {
@@ -105,26 +108,56 @@ Result<std::vector<Vec3>> moved_by(const ChaseWords& words, const MotionSetup& s
 
 }  // namespace
 
+Result<instruments::MotionTest> chase_of_words(const ChaseWords& words, const MotionSetup& setup) {
+  const auto ball = place_of(words.ball, "--ball");
+  if (!ball) return ball.error();
+  if (words.at == "maps") {
+    const auto plan = instruments::touch_plan(setup.machine);
+    if (!plan) return plan.error();
+    return instruments::chase_test(setup.machine,
+                                   {*ball, instruments::ball_poses(*plan), setup.tool_length});
+  }
+  const auto poses = pose_list(setup.machine, words.at);
+  if (!poses) return poses.error();
+  return instruments::chase_test(setup.machine, {*ball, *poses, setup.tool_length});
+}
+
 Result<MotionAnswer> chase_answer(const ChaseWords& words) {
   const auto setup = motion_setup(words);
   if (!setup) return setup.error();
-  const auto ball = place_of(words.ball, "--ball");
-  if (!ball) return ball.error();
-  const auto poses = pose_list(setup->machine, words.at);
-  if (!poses) return poses.error();
-  const auto test = instruments::chase_test(setup->machine, {*ball, *poses, setup->tool_length});
+  const auto test = chase_of_words(words, *setup);
   if (!test) return test.error();
+  const Vec3& ball = test->table_ball;
   const kinematics::ForwardChain actual(setup->machine, setup->errors, setup->tool_length);
   const auto feed = feed_per_second(words);
   if (!feed) return feed.error();
   const auto moved = moved_by(words, *setup, *test, *feed);
   if (!moved) return moved.error();
-  auto seen = instruments::displacements(
+  auto exact = instruments::displacements(
       actual, instruments::with_approach(*test, setup->errors).poses, setup->setup);
-  for (std::size_t i = 0; i < moved->size(); ++i) seen[i] += (*moved)[i];
-  const auto vectors = instruments::shown(setup->instrument, std::move(seen), 0);
+  double difference = 0.0;
+  if (words.nc.run) {
+    const auto rests = rests_of_program(words.nc, *setup, ball, test->poses);
+    if (!rests) return rests.error();
+    auto seen = instruments::displacements(actual, *rests, setup->setup);
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      difference = std::max(difference, (seen[i] - exact[i]).norm());
+    }
+    exact = std::move(seen);
+  }
+  for (std::size_t i = 0; i < moved->size(); ++i) exact[i] += (*moved)[i];
+  const auto vectors = instruments::shown(setup->instrument, std::move(exact), 0);
   MotionAnswer answer = answer_of("chase", "R-test", *setup);
-  answer.document["table_ball_mm"] = coordinates(*ball);
+  if (words.nc.run) add_program_run(answer, words.nc, difference);
+  if (words.nc.written()) {
+    const auto options = program_options(words.nc);
+    if (!options) return options.error();
+    if (auto problem =
+            add_program(answer, programs::chase_program(setup->machine, *test, *options))) {
+      return *std::move(problem);
+    }
+  }
+  answer.document["table_ball_mm"] = coordinates(ball);
   if (*feed) answer.document["feed_deg_min"] = *words.feed;
   if (!moved->empty()) answer.document["dynamics"] = words.dynamics;
   Lists list;
@@ -136,6 +169,7 @@ Result<MotionAnswer> chase_answer(const ChaseWords& words) {
   const double rms = std::sqrt(squares / static_cast<double>(vectors.size())) * kUmPerMm;
   answer.document["displacement_um"] = list;
   answer.document["axes"] = axes_of(setup->machine, test->poses);
+  answer.files["trace.csv"] = instruments::pose_csv(setup->machine, test->poses, vectors);
   answer.document["evaluation"] = Document{{"rms_um", rms}};
   draw_vectors(answer, test->poses, vectors, setup->machine);
   answer.text += vectors_text(test->poses, vectors, setup->machine);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "app/motion/motion_answer.hpp"
+#include "instruments/chase_test.hpp"
 
 namespace frustum::app {
 
@@ -12,6 +13,8 @@ struct ChaseWords : MotionWords {
   std::string ball{};
 };
 
+[[nodiscard]] Result<instruments::MotionTest> chase_of_words(const ChaseWords& words,
+                                                             const MotionSetup& setup);
 [[nodiscard]] Result<MotionAnswer> chase_answer(const ChaseWords& words);
 
 }  // namespace frustum::app

@@ -5,6 +5,8 @@
 #include "app/motion/circle_dynamics.hpp"
 #include "app/motion/circle_report.hpp"
 #include "app/motion/motion_dynamics.hpp"
+#include "app/motion/setup_sheet.hpp"
+#include "app/motion/test_program.hpp"
 #include "core/constants.hpp"
 #include "instruments/approach.hpp"
 #include "instruments/circle_test.hpp"
@@ -20,7 +22,47 @@ using instruments::CircleTrace;
 using instruments::MotionTest;
 using instruments::Sense;
 
-Result<CircleTest> circle_of(const CircleWords& words, const MotionSetup& setup) {
+// Both senses in place of the analytic samples.
+Result<double> take_program_readings(const CircleWords& words, const MotionSetup& setup,
+                                     const CircleTest& circle, std::vector<CircleTrace>& traces) {
+  CircleTest commanded = circle;
+  commanded.feed.reset();
+  const auto test = circle_test(setup.machine, commanded);
+  if (!test) return test.error();
+  BarOfProgram bar{.test = *test,
+                   .parameter = circle_parameter(setup.machine, circle),
+                   .name = "phi",
+                   .origin = programs::circle_origin(setup.machine, circle),
+                   .stroke = words.stroke,
+                   .servo_lag = words.feed.has_value()};
+  for (const CircleTrace& trace : traces) bar.expected.push_back(trace.deviation);
+  auto found = readings_by_program(words.nc, setup, bar, instruments::kSenses);
+  if (!found) return found.error();
+  for (std::size_t k = 0; k < traces.size(); ++k) traces[k].deviation = found->shown[k];
+  return found->largest_difference;
+}
+
+// To be written, where that is asked for.
+std::optional<Diagnostics> add_circle_program(MotionAnswer& answer, const CircleWords& words,
+                                              const MotionSetup& setup, const CircleTest& circle,
+                                              const MotionTest& test,
+                                              const std::vector<CircleTrace>& traces) {
+  if (!words.nc.written()) return std::nullopt;
+  auto options = program_options(words.nc);
+  if (!options) return options.error();
+  if (words.feed) options->feed = *words.feed;
+  const auto program = programs::circle_program(setup.machine, circle, *options);
+  if (auto problem = add_program(answer, program)) return problem;
+  std::vector<double> readings = traces[0].deviation;
+  readings.insert(readings.end(), traces[1].deviation.begin(), traces[1].deviation.end());
+  add_setup_sheet(answer,
+                  {setup.machine, test, *program, "phi", words.stroke, std::move(readings)});
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<CircleTest> circle_of_words(const CircleWords& words, const MotionSetup& setup) {
   const auto plane = instruments::plane_named(words.plane);
   if (!plane) return unknown_word("--plane", words.plane, {"XY", "YZ", "ZX"});
   const auto centre = place_of(words.centre, "--center");
@@ -42,12 +84,10 @@ Result<CircleTest> circle_of(const CircleWords& words, const MotionSetup& setup)
   return circle;
 }
 
-}  // namespace
-
 Result<MotionAnswer> circle_answer(const CircleWords& words) {
   const auto setup = motion_setup(words);
   if (!setup) return setup.error();
-  auto circle = circle_of(words, *setup);
+  auto circle = circle_of_words(words, *setup);
   if (!circle) return circle.error();
   const std::optional<double> feed = circle->feed;
   const auto moved = motion_dynamics(words, *setup, feed, circle->held);
@@ -55,6 +95,8 @@ Result<MotionAnswer> circle_answer(const CircleWords& words) {
   // The lag by servo gains is another model of the same drives.
   if (moved->is_on()) circle->feed.reset();
   const kinematics::ForwardChain actual(setup->machine, setup->errors, setup->tool_length);
+  // Of a program's run the analytic samples are what it is compared with.
+  const auto instrument = words.nc.run ? instruments::Instrument{} : setup->instrument;
   std::vector<CircleTrace> traces;
   MotionTest ccw;
   for (const Sense sense : instruments::kSenses) {
@@ -67,7 +109,7 @@ Result<MotionAnswer> circle_answer(const CircleWords& words) {
       deviations = circle_deviations(*moved->model, moved->method, *circle, *test, *feed);
     }
     auto readings = instruments::shown(
-        setup->instrument, instruments::bar_readings(actual, run, setup->setup, deviations),
+        instrument, instruments::bar_readings(actual, run, setup->setup, deviations),
         static_cast<std::uint32_t>(sense));
     if (auto problem = instruments::beyond_stroke(run, readings, words.stroke, "phi")) {
       return *std::move(problem);
@@ -75,7 +117,16 @@ Result<MotionAnswer> circle_answer(const CircleWords& words) {
     traces.push_back({sense, circle->angles, std::move(readings)});
     if (sense == Sense::ccw) ccw = *std::move(test);
   }
+  double difference = 0.0;
+  if (words.nc.run) {
+    const auto taken = take_program_readings(words, *setup, *circle, traces);
+    if (!taken) return taken.error();
+    difference = *taken;
+  }
   MotionAnswer answer = answer_of("circle", "Circle in " + words.plane, *setup);
+  if (words.nc.run) add_program_run(answer, words.nc, difference);
+  if (auto problem = add_circle_program(answer, words, *setup, *circle, ccw, traces))
+    return *std::move(problem);
   answer.document["plane"] = words.plane;
   answer.document["length_mm"] = circle->length;
   answer.document["center_mm"] = coordinates(circle->centre);

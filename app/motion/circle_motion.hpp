@@ -5,6 +5,7 @@
 #pragma once
 
 #include "app/motion/motion_answer.hpp"
+#include "instruments/circle_test.hpp"
 
 namespace frustum::app {
 
@@ -15,6 +16,9 @@ struct CircleWords : MotionWords {
   std::string angles{};
 };
 
+// As the words say, ccw.
+[[nodiscard]] Result<instruments::CircleTest> circle_of_words(const CircleWords& words,
+                                                              const MotionSetup& setup);
 [[nodiscard]] Result<MotionAnswer> circle_answer(const CircleWords& words);
 
 }  // namespace frustum::app

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/motion/motion_dynamics.hpp"
+#include "app/motion/test_program.hpp"
 #include "app/motion/turn_report.hpp"
 #include "core/constants.hpp"
 #include "instruments/cone_test.hpp"
@@ -14,7 +15,9 @@ namespace {
 using instruments::ConeSense;
 using instruments::ConeTest;
 
-Result<ConeTest> cone_of(const ConeMotionWords& words, const MotionSetup& setup) {
+}  // namespace
+
+Result<ConeTest> cone_of_words(const ConeMotionWords& words, const MotionSetup& setup) {
   if (words.sense != "normal" && words.sense != "radial") {
     return unknown_word("--sense", words.sense, {"normal", "radial"});
   }
@@ -33,12 +36,10 @@ Result<ConeTest> cone_of(const ConeMotionWords& words, const MotionSetup& setup)
                   .tool_length = setup.tool_length};
 }
 
-}  // namespace
-
 Result<MotionAnswer> cone_answer(const ConeMotionWords& words) {
   const auto setup = motion_setup(words);
   if (!setup) return setup.error();
-  const auto cone = cone_of(words, *setup);
+  const auto cone = cone_of_words(words, *setup);
   if (!cone) return cone.error();
   const auto test = cone_test(setup->machine, *cone);
   if (!test) return test.error();
@@ -46,10 +47,18 @@ Result<MotionAnswer> cone_answer(const ConeMotionWords& words) {
   if (!feed) return feed.error();
   const auto moved = deviations_of(words, *setup, *test, *feed, 1.0 / cone->radius);
   if (!moved) return moved.error();
-  const auto shown = shown_by_bar(*setup, *test, words.stroke, "phi", *moved);
-  if (!shown) return shown.error();
-  const std::vector<double>& readings = *shown;
+  const std::string title = fmt::format("BALL BAR CONE {} {:g} MM", words.sense, test->bar);
+  const auto bar = bar_of_words(words, *setup,
+                                {.test = *test,
+                                 .name = "cone",
+                                 .title = title,
+                                 .parameter = instruments::cone_parameter(setup->machine, *cone),
+                                 .parameter_name = "phi",
+                                 .moved = *moved});
+  if (!bar) return bar.error();
+  const std::vector<double>& readings = bar->readings;
   MotionAnswer answer = answer_of("cone", fmt::format("Cone path, bar {}", words.sense), *setup);
+  add_bar(answer, words, *setup, *test, "phi", *bar);
   answer.document["sense"] = words.sense;
   answer.document["cone_angle_deg"] = words.cone_angle;
   answer.document["inclination_deg"] = words.inclination;

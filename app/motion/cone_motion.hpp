@@ -5,6 +5,7 @@
 #pragma once
 
 #include "app/motion/motion_answer.hpp"
+#include "instruments/cone_test.hpp"
 
 namespace frustum::app {
 
@@ -17,6 +18,8 @@ struct ConeMotionWords : MotionWords {
   std::string angles{};
 };
 
+[[nodiscard]] Result<instruments::ConeTest> cone_of_words(const ConeMotionWords& words,
+                                                          const MotionSetup& setup);
 [[nodiscard]] Result<MotionAnswer> cone_answer(const ConeMotionWords& words);
 
 }  // namespace frustum::app

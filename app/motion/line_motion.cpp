@@ -6,6 +6,7 @@
 
 #include "app/job/number_list.hpp"
 #include "app/motion/motion_dynamics.hpp"
+#include "app/motion/test_program.hpp"
 #include "app/view/text_table.hpp"
 #include "core/decimal.hpp"
 #include "instruments/approach.hpp"
@@ -90,16 +91,50 @@ void draw_positioning(MotionAnswer& answer, const std::vector<double>& targets,
                 {"B reversal", number(p.largest_reversal), "", ""}}});
 }
 
-// Displacements of one run, by target.
-std::vector<Vec3> run_of(const MotionSetup& setup, const kinematics::ForwardChain& actual,
-                         const LineTest& line, const std::vector<Vec3>& moved,
-                         RunDirection direction, std::uint32_t number) {
-  const auto poses = instruments::with_approach(line.poses, line.start, setup.errors);
-  auto seen = instruments::displacements(actual, poses, setup.setup);
-  for (std::size_t i = 0; i < moved.size(); ++i) seen[i] += moved[i];
-  auto d = instruments::shown(setup.instrument, std::move(seen), number);
-  if (direction == RunDirection::down) std::ranges::reverse(d);
-  return d;
+// Displacements at the poses of runs, a list a run, before noise, and how far those of a program
+// are from analytic ones.
+struct RunReadings {
+  std::vector<std::vector<Vec3>> runs{};
+  double largest_difference = 0.0;  // mm
+};
+
+Result<RunReadings> readings_of(const ProgramWords& words, const MotionSetup& setup,
+                                std::span<const LineTest> runs) {
+  const kinematics::ForwardChain actual(setup.machine, setup.errors, setup.tool_length);
+  RunReadings found;
+  std::vector<instruments::TestPose> wanted;
+  for (const LineTest& run : runs) {
+    found.runs.push_back(instruments::displacements(
+        actual, instruments::with_approach(run.poses, run.start, setup.errors), setup.setup));
+    wanted.insert(wanted.end(), run.poses.begin(), run.poses.end());
+  }
+  if (words.run) {
+    const auto rests = rests_of_program(
+        words, setup, programs::line_origin(setup.machine, setup.tool_length), wanted);
+    if (!rests) return rests.error();
+    auto next = rests->begin();
+    for (auto& run : found.runs) {
+      for (Vec3& d : run) {
+        const Vec3 seen = instruments::displacement(actual, *next++, setup.setup);
+        found.largest_difference = std::max(found.largest_difference, (seen - d).norm());
+        d = seen;
+      }
+    }
+  }
+  return found;
+}
+
+// The program that was run, or is to be written.
+std::optional<Diagnostics> add_line_program(MotionAnswer& answer, const ProgramWords& words,
+                                            const MotionSetup& setup, const std::string& name,
+                                            const std::string& title,
+                                            std::span<const LineTest> runs, double difference) {
+  if (words.run) add_program_run(answer, words, difference);
+  if (!words.written()) return std::nullopt;
+  const auto options = program_options(words);
+  if (!options) return options.error();
+  return add_program(answer, programs::line_program(setup.machine, name, title, runs,
+                                                    setup.tool_length, *options));
 }
 
 // Of the motion of an axis across itself: the ranges of the mean of all runs.
@@ -156,23 +191,31 @@ Result<MotionAnswer> line_answer(const LineWords& words) {
   if (!moved_up) return moved_up.error();
   const auto moved_down = deviations_of(words, *setup, *down, *feed);
   if (!moved_down) return moved_down.error();
-  const kinematics::ForwardChain actual(setup->machine, setup->errors, setup->tool_length);
+  std::vector<LineTest> runs;
+  for (int run = 0; run < words.runs; ++run) runs.insert(runs.end(), {*up, *down});
+  auto readings = readings_of(words.nc, *setup, runs);
+  if (!readings) return readings.error();
   Deviations deviations_up(targets->size()), deviations_down(targets->size());
   std::vector<Vec3> means(targets->size(), Vec3::Zero());
-  std::uint32_t number = 0;
-  for (int run = 0; run < words.runs; ++run) {
-    for (const RunDirection direction : {RunDirection::up, RunDirection::down}) {
-      const bool is_up = direction == RunDirection::up;
-      const auto d = run_of(*setup, actual, is_up ? *up : *down, is_up ? *moved_up : *moved_down,
-                            direction, number++);
-      for (std::size_t i = 0; i < d.size(); ++i) {
-        // `down` has the opposite order, not the opposite direction.
-        (is_up ? deviations_up : deviations_down)[i].push_back(d[i].dot(up->direction));
-        means[i] += d[i] / (2.0 * words.runs);
-      }
+  for (std::size_t run = 0; run < runs.size(); ++run) {
+    const bool is_up = run % 2 == 0;
+    std::vector<Vec3>& seen = readings->runs[run];
+    const std::vector<Vec3>& moved = is_up ? *moved_up : *moved_down;
+    for (std::size_t i = 0; i < moved.size(); ++i) seen[i] += moved[i];
+    auto d =
+        instruments::shown(setup->instrument, std::move(seen), static_cast<std::uint32_t>(run));
+    if (!is_up) std::ranges::reverse(d);
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      // `down` has the opposite order, not the opposite direction.
+      (is_up ? deviations_up : deviations_down)[i].push_back(d[i].dot(up->direction));
+      means[i] += d[i] / (2.0 * words.runs);
     }
   }
   MotionAnswer answer = answer_of("line", fmt::format("Laser along {}", words.axis), *setup);
+  if (auto problem = add_line_program(answer, words.nc, *setup, "line", "LASER " + words.axis, runs,
+                                      readings->largest_difference)) {
+    return *std::move(problem);
+  }
   answer.document["axis"] = words.axis;
   answer.document["runs"] = static_cast<std::uint64_t>(words.runs);
   if (*feed) answer.document["feed_mm_min"] = *words.feed;
@@ -204,21 +247,33 @@ Result<MotionAnswer> line_answer(const LineWords& words) {
   return answer;
 }
 
+Result<std::map<std::string, LineTest>> diagonals_of_words(const DiagonalWords& words,
+                                                           const MotionSetup& setup) {
+  const auto box = box_of(words.box);
+  if (!box) return box.error();
+  const auto held = held_axes(setup.machine, words.at, LinearAxes::held);
+  if (!held) return held.error();
+  return instruments::diagonal_lines(
+      setup.machine,
+      {.box = *box, .points = words.points, .held = *held, .tool_length = setup.tool_length});
+}
+
 Result<MotionAnswer> diagonal_answer(const DiagonalWords& words) {
   const auto setup = motion_setup(words);
   if (!setup) return setup.error();
-  const auto box = box_of(words.box);
-  if (!box) return box.error();
-  const auto held = held_axes(setup->machine, words.at, LinearAxes::held);
-  if (!held) return held.error();
-  const auto lines = instruments::diagonal_lines(
-      setup->machine,
-      {.box = *box, .points = words.points, .held = *held, .tool_length = setup->tool_length});
+  const auto lines = diagonals_of_words(words, *setup);
   if (!lines) return lines.error();
   const auto feed = feed_per_second(words);
   if (!feed) return feed.error();
-  const kinematics::ForwardChain actual(setup->machine, setup->errors, setup->tool_length);
+  std::vector<LineTest> runs;
+  for (const auto& [signs, line] : *lines) runs.push_back(line);
+  const auto displaced = readings_of(words.nc, *setup, runs);
+  if (!displaced) return displaced.error();
   MotionAnswer answer = answer_of("diagonal", "Diagonals", *setup);
+  if (auto problem = add_line_program(answer, words.nc, *setup, "diagonal", "LASER DIAGONALS", runs,
+                                      displaced->largest_difference)) {
+    return *std::move(problem);
+  }
   Document readings, lengths;
   report::TraceChart chart{.title = "Readings along the diagonals",
                            .along_title = "length along the diagonal, mm",
@@ -227,18 +282,22 @@ Result<MotionAnswer> diagonal_answer(const DiagonalWords& words) {
   const auto errors = instruments::location_unknowns(setup->machine);
   std::vector<instruments::ReadingGains> gains;
   std::uint32_t number = 0;
+  std::string csv = "diagonal,length_mm,reading_um\n";
   for (const auto& [signs, line] : *lines) {
-    LineTest run = line;
-    run.poses = instruments::with_approach(run.poses, run.start, setup->errors);
     const auto moved = deviations_of(words, *setup, line, *feed);
     if (!moved) return moved.error();
-    auto along = instruments::line_readings(actual, run, setup->setup);
+    std::vector<double> along;
+    for (const Vec3& d : displaced->runs[number]) along.push_back(d.dot(line.direction));
     for (std::size_t i = 0; i < moved->size(); ++i) along[i] += (*moved)[i].dot(line.direction);
     const auto seen =
         instruments::from_first(instruments::shown(setup->instrument, std::move(along), number++));
     readings[signs] = in_um(seen);
     chart.lines.push_back({.name = signs, .along = {}, .value = in_um(seen), .dots = true});
-    for (const auto& pose : line.poses) chart.lines.back().along.push_back(pose.parameter);
+    for (std::size_t i = 0; i < line.poses.size(); ++i) {
+      chart.lines.back().along.push_back(line.poses[i].parameter);
+      csv += fmt::format("{},{},{}\n", signs, shortest_decimal(line.poses[i].parameter),
+                         shortest_decimal(seen[i] * kUmPerMm));
+    }
     lengths[signs] = line.poses.back().parameter;
     table.row({signs, fmt::format("{:.3f}", line.poses.back().parameter),
                fixed_decimal(seen[seen.size() / 2] * kUmPerMm, 3),
@@ -250,6 +309,7 @@ Result<MotionAnswer> diagonal_answer(const DiagonalWords& words) {
   if (words.dynamics != "off") answer.document["dynamics"] = words.dynamics;
   answer.document["lengths_mm"] = lengths;
   answer.document["diagonals"] = readings;
+  answer.files["trace.csv"] = std::move(csv);
   answer.document["evaluation"] = {};
   answer.page.charts.push_back(std::move(chart));
   answer.text += table.text();

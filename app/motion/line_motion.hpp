@@ -5,6 +5,7 @@
 #pragma once
 
 #include "app/motion/motion_answer.hpp"
+#include "instruments/line_test.hpp"
 #include "instruments/positioning.hpp"
 
 namespace frustum::app {
@@ -20,6 +21,8 @@ struct DiagonalWords : MotionWords {
   std::string box{};
   int points = 11;
 };
+[[nodiscard]] Result<std::map<std::string, instruments::LineTest>> diagonals_of_words(
+    const DiagonalWords& words, const MotionSetup& setup);
 [[nodiscard]] Result<MotionAnswer> diagonal_answer(const DiagonalWords& words);
 
 // Puts `evaluation` into the document and its table into the text; deviations in mm.

@@ -17,12 +17,18 @@
 
 namespace frustum::app {
 
+struct NcText {
+  std::string name{};  // of its file, where none was given
+  std::string text{};
+};
+
 struct MotionAnswer {
   Document document{};
   std::string text{};
   report::MotionPage page{};
   Diagnostics warnings{};
   std::map<std::string, std::string> files{};  // of --out, besides the document
+  std::optional<NcText> program{};
 };
 
 // Begins the document with schema, test, machine, errors and set-up, text and page with the title

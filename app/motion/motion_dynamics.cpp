@@ -108,6 +108,10 @@ Result<MotionDynamics> motion_dynamics(const MotionWords& words, const MotionSet
   MotionDynamics moved{static_cast<PathMethod>(found - known.begin()), std::nullopt, {}};
   moved.law.jerk = words.jerk;
   if (moved.method == PathMethod::off) return moved;
+  if (words.nc.run) {
+    return error("conflicting-options"_id, "masses and springs do not move the axes of a program",
+                 "leave out dynamics, or program");
+  }
   if (!feed) {
     return error("missing-option"_id, "--dynamics needs --feed: at rest nothing moves the tip",
                  "for example --feed 10000");

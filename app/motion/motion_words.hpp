@@ -21,6 +21,18 @@
 
 namespace frustum::app {
 
+// The NC program of a test, which is written, or (of a test file) run.
+struct ProgramWords {
+  std::string file{};
+  std::string dialect{};
+  std::string form{};  // tcp (default), axes
+  double feed = 1000.0;
+  bool run = false;        // else it is written, where a file or a dialect is given
+  bool servo_lag = false;  // while it runs
+
+  [[nodiscard]] bool written() const { return !run && (!file.empty() || !dialect.empty()); }
+};
+
 struct MotionWords : AnswerOptions {
   std::string machine{};
   ErrorWords errors{};
@@ -36,6 +48,7 @@ struct MotionWords : AnswerOptions {
   std::optional<double> feed{};
   std::string dynamics = "off";  // or quasi_static, linear: with a feed
   bool jerk = false;             // the time law limits jerk, too
+  ProgramWords nc{};
   std::string out{};
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/motion/motion_dynamics.hpp"
+#include "app/motion/test_program.hpp"
 #include "app/motion/turn_report.hpp"
 #include "instruments/rotary_test.hpp"
 #include "instruments/sample_angles.hpp"
@@ -13,7 +14,9 @@ namespace {
 using instruments::BarHold;
 using instruments::RotaryTest;
 
-Result<RotaryTest> rotary_of(const RotaryWords& words, const MotionSetup& setup) {
+}  // namespace
+
+Result<RotaryTest> rotary_of_words(const RotaryWords& words, const MotionSetup& setup) {
   const std::vector<std::string> directions{"axial", "radial", "tangential"};
   if (words.direction.empty()) {
     return error("direction-missing"_id, "the direction of the bar is not said",
@@ -58,12 +61,10 @@ Result<RotaryTest> rotary_of(const RotaryWords& words, const MotionSetup& setup)
       .tool_length = setup.tool_length};
 }
 
-}  // namespace
-
 Result<MotionAnswer> rotary_answer(const RotaryWords& words) {
   const auto setup = motion_setup(words);
   if (!setup) return setup.error();
-  const auto rotary = rotary_of(words, *setup);
+  const auto rotary = rotary_of_words(words, *setup);
   if (!rotary) return rotary.error();
   const auto test = rotary_test(setup->machine, *rotary);
   if (!test) return test.error();
@@ -71,13 +72,22 @@ Result<MotionAnswer> rotary_answer(const RotaryWords& words) {
   if (!feed) return feed.error();
   const auto moved = deviations_of(words, *setup, *test, *feed, kRadPerDeg);
   if (!moved) return moved.error();
-  const auto shown = shown_by_bar(*setup, *test, words.stroke, words.axis, *moved);
-  if (!shown) return shown.error();
-  const std::vector<double>& readings = *shown;
+  const std::string title =
+      fmt::format("BALL BAR {} {} {} MM", words.axis, words.direction, rotary->length);
+  const auto bar = bar_of_words(words, *setup,
+                                {.test = *test,
+                                 .name = "rotary",
+                                 .title = title,
+                                 .parameter = instruments::rotary_parameter(rotary->axis),
+                                 .parameter_name = words.axis,
+                                 .moved = *moved});
+  if (!bar) return bar.error();
+  const std::vector<double>& readings = bar->readings;
   MotionAnswer answer = answer_of("rotary",
                                   fmt::format("Axis {}, {} bar held on the {}", words.axis,
                                               words.direction, name_of(rotary->hold)),
                                   *setup);
+  add_bar(answer, words, *setup, *test, words.axis, *bar);
   answer.document["axis"] = words.axis;
   answer.document["direction"] = words.direction;
   answer.document["hold"] = name_of(rotary->hold);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "app/motion/motion_answer.hpp"
+#include "instruments/rotary_test.hpp"
 
 namespace frustum::app {
 
@@ -17,6 +18,8 @@ struct RotaryWords : MotionWords {
   std::string angles{};
 };
 
+[[nodiscard]] Result<instruments::RotaryTest> rotary_of_words(const RotaryWords& words,
+                                                              const MotionSetup& setup);
 [[nodiscard]] Result<MotionAnswer> rotary_answer(const RotaryWords& words);
 
 }  // namespace frustum::app

@@ -59,6 +59,15 @@ void read_common(const TomlTable& root, MotionWords& words) {
   words.tool_length = root.length_or("tool_length", {0.0}, Bound::non_negative).value;
   words.at = root.text_or("at", "");
   words.setup = read_setup(root);
+  if (root.has("program")) {
+    words.nc.file = root.file_path("program").string();
+    words.nc.run = true;
+    words.nc.servo_lag = root.boolean_or("servo_lag", false);
+    const std::vector<std::string> known{"fanuc", "linuxcnc", "sinumerik", "heidenhain"};
+    if (root.has("dialect")) {
+      words.nc.dialect = known[root.choice("dialect", known)];
+    }
+  }
   words.ball_known = root.boolean_or("ball_known", false);
   if (const auto instrument = root.table_if("instrument")) {
     words.noise = instrument->text_or("noise", "");
@@ -315,6 +324,10 @@ std::string test_toml(const TestWords& words, const fs::path& folder) {
         if (common.dynamics != "off") out.text("dynamics", common.dynamics);
         if (common.jerk) out.yes("jerk");
         if (common.ball_known) out.yes("ball_known");
+        if (!common.nc.file.empty()) {
+          out.text("program", path_from(common.nc.file, folder));
+          out.text("dialect", common.nc.dialect.empty() ? "fanuc" : common.nc.dialect);
+        }
         if (common.tool_length > 0.0) out.number("tool_length", common.tool_length);
         write_setup(common.setup, out);
         out.table("instrument");

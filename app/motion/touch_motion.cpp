@@ -101,7 +101,13 @@ Result<MotionAnswer> touch_answer(const TouchWords& words) {
   answer.document["axes"] = axes_of(setup->machine, *poses);
   name_facts(answer.page, *setup);
   add_touch_findings(answer, setup->machine, *plan, found);
-  answer.files["touch.ngc"] = touch_program(*plan, probe);
+  for (const auto& [name, dialect] : {std::pair{"touch.ngc", parser::Dialect::linuxcnc},
+                                      std::pair{"touch.nc", parser::Dialect::fanuc},
+                                      std::pair{"touch.mpf", parser::Dialect::sinumerik},
+                                      std::pair{"touch.h", parser::Dialect::heidenhain}}) {
+    answer.files[name] = touch_program(*plan, probe, dialect);
+  }
+  answer.files["touch.a"] = instruments::touch_mask();
   return answer;
 }
 

@@ -9,7 +9,7 @@
 #include "app/view/text_table.hpp"
 #include "core/decimal.hpp"
 #include "core/toml_document.hpp"
-#include "instruments/touch_trace_file.hpp"
+#include "instruments/traces/touch_trace_file.hpp"
 
 namespace frustum::app {
 namespace {
@@ -182,7 +182,7 @@ std::string error_file(const kinematics::Machine& machine, const TouchPlan& plan
   second.push_back(360.0);  // once round, C is where it was
   std::string out = fmt::format(
       "# The errors at A = C = 0 are zero by definition: the table there is the reference.\n"
-      "title     = \"Errors of A and C, identified by touch-trigger calibration\"\n"
+      "title     = \"Errors of A and C, identified at indexed positions\"\n"
       "machine   = {}\nstructure = {}\n",
       toml_text(machine.name()), toml_text(machine.structure()));
   for (std::size_t k = 0; k < kDirections.size(); ++k) {
@@ -223,26 +223,33 @@ std::array<double, 2> largest_difference(const TableMaps& a, const TableMaps& b)
   return largest;
 }
 
-}  // namespace
-
-void add_touch_findings(MotionAnswer& answer, const kinematics::Machine& machine,
-                        const TouchPlan& plan, const TouchFindings& found) {
+// What was touched, and where.
+void add_touches(MotionAnswer& answer, const TouchPlan& plan, const std::vector<double>& readings) {
   Document& doc = answer.document;
   doc["touches"] = static_cast<std::uint64_t>(plan.touches.size());
-  doc["A_deg"] = positions_of(plan.tilts);
-  doc["C_deg"] = positions_of(plan.turns);
   Lists planned;
   for (const auto& touch : plan.touches) {
     planned.push_back({static_cast<double>(touch.tilt), static_cast<double>(touch.turn),
                        static_cast<double>(touch.point)});
   }
   doc["plan"] = planned;  // A, C, point, each counted from 0
-  doc["reading_um"] = in_um(found.readings);
+  doc["reading_um"] = in_um(readings);
+  answer.files["touches.csv"] = touch_csv(plan, readings);
+  answer.text += fmt::format("{} touches of three columns at {} positions of A and {} of C\n",
+                             plan.touches.size(), plan.tilts.size(), plan.turns.size());
+}
+
+}  // namespace
+
+void add_touch_findings(MotionAnswer& answer, const kinematics::Machine& machine,
+                        const TouchPlan& plan, const TouchFindings& found) {
+  Document& doc = answer.document;
+  doc["A_deg"] = positions_of(plan.tilts);
+  doc["C_deg"] = positions_of(plan.turns);
+  if (!found.readings.empty()) add_touches(answer, plan, found.readings);
   doc["identified"] = document_of(found.identified);
   doc["sd"] = document_of(found.sd);
 
-  answer.text += fmt::format("{} touches of three columns at {} positions of A and {} of C\n",
-                             plan.touches.size(), plan.tilts.size(), plan.turns.size());
   add_table(answer, "Identified errors", value_rows(plan, found.identified));
   const bool noisy = found.sd.tilt.front().maxCoeff() > 0.0;
   if (noisy) {
@@ -270,7 +277,6 @@ void add_touch_findings(MotionAnswer& answer, const kinematics::Machine& machine
   answer.text += fmt::format("{}\n", kGauge);
   answer.page.tables.front().note = kGauge;
   draw(answer, plan, found);
-  answer.files["touches.csv"] = touch_csv(plan, found.readings);
   answer.files["errors.toml"] = error_file(machine, plan, found.identified);
 }
 

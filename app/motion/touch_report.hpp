@@ -14,7 +14,7 @@
 namespace frustum::app {
 
 struct TouchFindings {
-  std::vector<double> readings{};
+  std::vector<double> readings{};  // of touches; empty where something else was measured
   instruments::TableMaps identified{};
   instruments::TableMaps sd{};  // propagated from the noise of a touch
   std::optional<instruments::TableMaps>

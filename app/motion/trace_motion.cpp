@@ -2,14 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <sstream>
+
 #include "app/job/number_list.hpp"
 #include "app/motion/circle_report.hpp"
 #include "app/motion/line_motion.hpp"
 #include "app/motion/touch_report.hpp"
-#include "instruments/circle_trace_file.hpp"
-#include "instruments/line_trace_file.hpp"
+#include "instruments/ball_maps.hpp"
+#include "instruments/chase_test.hpp"
 #include "instruments/touch_test.hpp"
-#include "instruments/touch_trace_file.hpp"
+#include "instruments/traces/circle_trace_file.hpp"
+#include "instruments/traces/line_trace_file.hpp"
+#include "instruments/traces/pose_trace_file.hpp"
+#include "instruments/traces/touch_trace_file.hpp"
 
 namespace frustum::app {
 namespace {
@@ -147,6 +152,50 @@ Result<MotionAnswer> touch_trace(const TraceWords& words) {
   return answer;
 }
 
+// R-tests with three balls at the positions of the calibration: maps of A and C.
+Result<MotionAnswer> ball_trace(const TraceWords& words) {
+  MotionWords of_machine;
+  of_machine.machine = words.machine;
+  of_machine.noise = words.noise;
+  const auto setup = motion_setup(of_machine);
+  if (!setup) return setup.error();
+  const auto plan = instruments::touch_plan(setup->machine);
+  if (!plan) return plan.error();
+  std::vector<Vec3> balls;
+  std::istringstream in(words.balls);
+  for (std::string part; std::getline(in, part, ';');) {
+    const auto ball = place_of(part, "--balls");
+    if (!ball) return ball.error();
+    balls.push_back(*ball);
+  }
+  if (balls.size() != words.files.size()) {
+    return error("file-count"_id, fmt::format("{} balls and {} files: an R-test each", balls.size(),
+                                              words.files.size()));
+  }
+  std::vector<std::vector<Vec3>> readings;
+  for (std::size_t k = 0; k < balls.size(); ++k) {
+    const auto test = instruments::chase_test(setup->machine, {balls[k], ball_poses(*plan), 0.0});
+    if (!test) return test.error();
+    auto read = instruments::read_pose_trace(words.files[k], setup->machine, test->poses);
+    if (!read) return read.error();
+    readings.push_back(*std::move(read));
+  }
+  auto identified = instruments::maps_of_balls(*plan, balls, readings);
+  if (!identified) return identified.error();
+  auto sd = instruments::deviations_of_balls(*plan, balls, setup->instrument.noise);
+  if (!sd) return sd.error();
+  MotionAnswer answer{
+      .document = trace_head("chase", words),
+      .text = fmt::format("R-tests with {} balls on {}\n", balls.size(), setup->machine.name())};
+  answer.document["machine"] = setup->machine.name();
+  answer.page.title = "Errors of A and C from R-tests";
+  answer.page.facts = {{"Machine", setup->machine.title()}};
+  answer.document["noise_um"] = setup->instrument.noise * kUmPerMm;
+  add_touch_findings(answer, setup->machine, *plan,
+                     {.identified = *std::move(identified), .sd = *std::move(sd)});
+  return answer;
+}
+
 }  // namespace
 
 Result<MotionAnswer> trace_answer(const TraceWords& words) {
@@ -155,7 +204,7 @@ Result<MotionAnswer> trace_answer(const TraceWords& words) {
       return error("conflicting-options"_id, "--machine is of touches, which have no plane or axis",
                    "--plane for a circle of a ball bar, --axis for a line of a laser");
     }
-    return touch_trace(words);
+    return words.balls.empty() ? touch_trace(words) : ball_trace(words);
   }
   if (!words.noise.empty()) {
     return error("conflicting-options"_id, "--noise is that of touches", "give --machine, too");

@@ -16,7 +16,8 @@ struct TraceWords : AnswerOptions {
   double stroke = 1.0;
   std::string axis{};     // of a line
   std::string machine{};  // of touches
-  std::string noise{};    // of touches, two standard deviations
+  std::string noise{};    // of touches, two standard deviations; of R-tests one
+  std::string balls{};    // of R-tests: "x,y,z;x,y,z;x,y,z"
   std::string out{};
 };
 

@@ -25,6 +25,11 @@ std::string number(double value, bool angular) {
   return report::fixed_text(shown(value, angular), 1);
 }
 
+// Motion tests know errors to hundredths.
+std::string estimated(const Study& study, double value, bool angular) {
+  return report::fixed_text(shown(value, angular), study.motions.empty() ? 1 : 2);
+}
+
 std::string optional_number(const std::optional<double>& value, bool angular) {
   return value ? number(*value, angular) : "";
 }
@@ -65,10 +70,11 @@ std::string estimates_table(const Study& study, const StudyResult& result) {
   TextTable table(headings);
   for (const Estimate& e : result.identification.estimates) {
     const std::string half =
-        e.upper && e.lower ? number(0.5 * (*e.upper - *e.lower), e.angular) : "";
-    std::vector<std::string> cells{e.name, unit_of(e.angular),
-                                   e.value ? number(*e.value, e.angular) : "not identified", half,
-                                   known_text(study, e)};
+        e.upper && e.lower ? estimated(study, 0.5 * (*e.upper - *e.lower), e.angular) : "";
+    std::vector<std::string> cells{
+        e.name, unit_of(e.angular),
+        e.value ? estimated(study, *e.value, e.angular) : "not identified", half,
+        known_text(study, e)};
     if (result.recipe) {
       cells.push_back(optional_number(recipe_value(result.recipe, e.name), e.angular));
       cells.push_back(optional_number(recipe_value(result.corrected_recipe, e.name), e.angular));
@@ -89,12 +95,13 @@ bool is_angle(const calibration::Combination& combination, const StudyResult& re
   });
 }
 
-std::string combinations_text(const StudyResult& result) {
+std::string combinations_text(const Study& study, const StudyResult& result) {
   std::string out;
   for (const auto& c : result.identification.combinations) {
     const bool angular = is_angle(c.combination, result);
-    out += fmt::format("  {} = {} ± {} {}\n", c.combination.text, number(c.value, angular),
-                       number(0.5 * (c.upper - c.lower), angular), unit_of(angular));
+    out +=
+        fmt::format("  {} = {} ± {} {}\n", c.combination.text, estimated(study, c.value, angular),
+                    estimated(study, 0.5 * (c.upper - c.lower), angular), unit_of(angular));
   }
   return out.empty() ? out : "\nWhat can be identified instead (± 95 %):\n" + out;
 }
@@ -116,7 +123,7 @@ std::string remedy_text(const Remedy& remedy) {
   return '\n' + out + ".\n";
 }
 
-std::string residual_table(const StudyResult& result) {
+std::string residual_table(const Study& study, const StudyResult& result) {
   std::vector<const calibration::Residual*> worst;
   for (const auto& r : result.identification.residuals) {
     if (r.normalised) worst.push_back(&r);
@@ -129,8 +136,9 @@ std::string residual_table(const StudyResult& result) {
   TextTable table(
       {"largest residuals", "unit", "measured", "predicted", "residual", "in deviations"});
   for (const auto* r : worst) {
-    table.row({r->name, unit_of(r->angular), number(r->measured, r->angular),
-               number(r->predicted, r->angular), number(r->residual, r->angular),
+    table.row({r->name, unit_of(r->angular), estimated(study, r->measured, r->angular),
+               estimated(study, r->predicted, r->angular),
+               estimated(study, r->residual, r->angular),
                fmt::format("{:+.1f}{}", *r->normalised, r->outlier ? " !" : "")});
   }
   return worst.empty() ? "" : '\n' + table.text();
@@ -283,6 +291,18 @@ Json recipe_json(const Recipe& recipe) {
   return list;
 }
 
+std::string counted(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+// "2 parts and 9 motion tests"
+std::string sources_text(const Study& study) {
+  const std::string parts = counted(study.parts.size(), "part");
+  const std::string tests = counted(study.motions.size(), "motion test");
+  if (study.motions.empty()) return parts;
+  return study.parts.empty() ? tests : parts + " and " + tests;
+}
+
 }  // namespace
 
 std::string identification_text(const Study& study, const StudyResult& result) {
@@ -290,12 +310,11 @@ std::string identification_text(const Study& study, const StudyResult& result) {
   std::size_t rows = 0;
   for (const auto& r : identification.residuals) rows += r.prior ? 0 : 1;
   std::string out =
-      fmt::format("{}\n{}: {} measured characteristics on {} part{}, {} unknowns\n\n",
+      fmt::format("{}\n{}: {} measured characteristics on {}, {} unknowns\n\n",
                   study.title.empty() ? study.file.string() : study.title, study.machine().title(),
-                  rows, study.parts.size(), study.parts.size() == 1 ? "" : "s",
-                  identification.observability.unknowns);
+                  rows, sources_text(study), identification.observability.unknowns);
   out += estimates_table(study, result);
-  out += combinations_text(result);
+  out += combinations_text(study, result);
   if (!identification.diagnostics.empty() || !result.left_out.empty()) out += '\n';
   if (!result.left_out.empty()) {
     out += fmt::format("note: forms and zones do not enter, since they have no derivative: {}\n",
@@ -307,7 +326,7 @@ std::string identification_text(const Study& study, const StudyResult& result) {
   }
   if (result.remedy) out += remedy_text(*result.remedy);
   out += agreement_text(result);
-  out += residual_table(result);
+  out += residual_table(study, result);
   if (result.recipe) out += recipe_text(*result.recipe);
   return out;
 }

@@ -50,6 +50,14 @@ ForwardChain::ForwardChain(const Machine& machine, const GeometricErrors& errors
   }
 }
 
+bool ForwardChain::locations_only() const {
+  if (grids_ != nullptr) return false;
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (links_[i].component != nullptr) return false;
+  }
+  return true;
+}
+
 void ForwardChain::prepare(Link& link, const Joint& joint, const AxisErrors& errors) {
   link.letter = joint.letter;
   link.direction = joint.side * joint.direction;

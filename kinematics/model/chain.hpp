@@ -45,6 +45,8 @@ class ForwardChain {
   // Each side's own chain, in the frame of the bed.
   [[nodiscard]] Pose bed_from_tool(const AxisState& at) const;
   [[nodiscard]] Pose bed_from_table(const AxisState& at) const;
+  // No error depends on where the axes are: poses are as smooth as nominal ones.
+  [[nodiscard]] bool locations_only() const;
 
  private:
   enum class Motion : std::uint8_t { linear, about_x, about_y, about_z, about_any };

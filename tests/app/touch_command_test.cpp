@@ -151,5 +151,120 @@ TEST_F(TouchSystem, TheProbingProgramLogsTouches) {
   }
 }
 
+// What a line of a program says of an axis, X+3.
+std::optional<double> word_of(const std::string& line, const std::string& axis) {
+  const auto at = line.find(" " + axis);
+  if (at == std::string::npos) return std::nullopt;
+  return std::stod(line.substr(at + 1 + axis.size()));
+}
+
+// The programs of the other controls touch what that of LinuxCNC touches.
+TEST_F(TouchSystem, TheProbingProgramsOfFourControls) {
+  document("touch --machine zx-yac --noise 0.35um --out out");
+  struct Control {
+    const char* file;
+    const char* probe;
+    const char* relative;  // before the axes of the way of the probe; empty: its end
+  };
+  std::vector<std::vector<Vec3>> ends;
+  std::vector<Vec3> starts;  // of Fanuc's probes
+  for (const Control& control :
+       {Control{"touch.ngc", "G38.2", ""}, Control{"touch.nc", "G31", ""},
+        Control{"touch.mpf", "MEAS=1 G1", ""}, Control{"touch.h", "TCH PROBE 4.2", "I"}}) {
+    std::istringstream lines(read(folder_ / "out" / control.file));
+    std::vector<Vec3> found;
+    Vec3 at = Vec3::Zero();
+    for (std::string line; std::getline(lines, line);) {
+      const bool probes = line.find(control.probe) != std::string::npos;
+      const std::string relative = probes ? control.relative : "";
+      Vec3 to = at;
+      for (Eigen::Index k = 0; k < 3; ++k) {
+        const std::string axis = relative + "XYZ"[k];
+        if (line.find("DPRNT") != std::string::npos || line.find("LOG") != std::string::npos ||
+            line.find("WRITE") != std::string::npos || line.find("TOOL CALL") != std::string::npos)
+          continue;
+        if (const auto value = word_of(line, axis)) to[k] = *value + (relative.empty() ? 0 : at[k]);
+      }
+      if (probes) found.push_back(to);
+      if (probes && ends.size() == 1) starts.push_back(at);
+      if (!probes) at = to;
+    }
+    EXPECT_EQ(found.size(), 219U) << control.file;
+    ends.push_back(std::move(found));
+  }
+  for (std::size_t c = 1; c < ends.size(); ++c) {
+    ASSERT_EQ(ends[c].size(), ends[0].size());
+    for (std::size_t i = 0; i < ends[c].size(); ++i) {
+      EXPECT_LT((ends[c][i] - ends[0][i]).norm(), 3e-6) << c << ", touch " << i;
+    }
+  }
+  // What DPRNT writes of touches at their nominal places is read again.
+  std::istringstream lines(read(folder_ / "out/touch.nc"));
+  std::string printed = "A C POINT BALLX BALLY BALLZ\n";
+  std::size_t touch = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("DPRNT[") || line.find('#') == std::string::npos) continue;
+    std::string places = line.substr(6, line.find('#') - 6);
+    std::ranges::replace(places, '*', ' ');
+    const Vec3 ball = ends[1][touch] + (starts[touch] - ends[1][touch]) / 2.0;
+    printed += fmt::format("{}{:.4f} {:.4f} {:.4f}\n", places, ball.x(), ball.y(), ball.z());
+    ++touch;
+  }
+  write("printed.txt", printed);
+  const json found = document("trace printed.txt --machine zx-yac");
+  ASSERT_FALSE(found.is_null());
+  EXPECT_EQ(found["touches"], 219U);
+  for (const json& row : found["identified"]["A"]) {
+    expect_all(row, {0.0, 0.0, 0.0, 0.0, 0.0, 0.0}, 0.5);  // of four decimals
+  }
+  // Those that the parser knows run to their end; MEAS and TCH PROBE 4 it refuses by name.
+  for (const char* file : {"touch.ngc", "touch.nc"}) {
+    EXPECT_EQ(run(std::string("parse out/") + file + " --canon").exit_code, 0) << file;
+  }
+}
+
+// Three R-tests identify the maps that touches do, and write them as errors.
+TEST_F(TouchSystem, RTestsWithThreeBallsMakeTheSameMaps) {
+  const std::string machine = "--machine ac-probe --errors ibaraki-position-dependent";
+  const json touched = document("touch " + machine);
+  std::string files;
+  for (const char* ball : {"100,0,60", "-80,90,40", "-20,-110,80"}) {
+    const std::string out = fmt::format("b{}", files.size());
+    document(fmt::format("chase {} --ball={} --at maps --out {} --setup \"table_ball=30,-20,10\"",
+                         machine, ball, out));
+    files += out + "/trace.csv ";
+  }
+  const json found = document("trace " + files +
+                              "--machine ac-probe --noise 0.2um --out maps --balls "
+                              "\"100,0,60;-80,90,40;-20,-110,80\"");
+  ASSERT_FALSE(found.is_null());
+  // Second order of both, and the balls are off by 37 um.
+  for (std::size_t i = 0; i < 4; ++i) {
+    expect_all(found["identified"]["A"][i], touched["visible"]["A"][i], 0.01);
+    for (std::size_t j = 0; j < 6; ++j) {
+      expect_all(found["identified"]["C"][i][j], touched["visible"]["C"][i][j], 0.01);
+    }
+  }
+  EXPECT_GT(found["sd"]["A"][1][0].get<double>(), 0.01);
+  // As errors of a machine they are what was identified.
+  const json again = document("touch --machine ac-probe --errors maps/errors.toml");
+  for (std::size_t i = 0; i < 4; ++i) {
+    expect_all(again["identified"]["A"][i], touched["visible"]["A"][i], 0.01);
+  }
+  EXPECT_EQ(fault("trace " + files + "--machine ac-probe --balls \"0,0,0;10,0,0;20,0,0\""),
+            "balls-in-line");
+}
+
+// The lines of the axes as a control asks for them.
+TEST_F(TouchSystem, VectorsOfTheRotaryAxes) {
+  const json found = document("vectors --machine zx-yac --error EX0C=10um --error EB0C=20urad");
+  ASSERT_FALSE(found.is_null());
+  const json& c = found["vectors"]["C"];
+  EXPECT_EQ(c["side"], "table");
+  EXPECT_NEAR(c["point_off_um"][0].get<double>(), 10.0, 1e-3);
+  EXPECT_NEAR(c["direction_off_urad"][0].get<double>(), 20.0, 1e-6);
+  EXPECT_EQ(fault("vectors --machine three-axis"), "no-rotary-axis");
+}
+
 }  // namespace
 }  // namespace frustum

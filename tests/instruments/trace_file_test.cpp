@@ -9,9 +9,9 @@
 #include <fstream>
 
 #include "core/random.hpp"
-#include "instruments/circle_trace_file.hpp"
 #include "instruments/instrument.hpp"
-#include "instruments/line_trace_file.hpp"
+#include "instruments/traces/circle_trace_file.hpp"
+#include "instruments/traces/line_trace_file.hpp"
 
 namespace frustum::instruments {
 namespace {

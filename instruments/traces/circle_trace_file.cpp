@@ -1,4 +1,4 @@
-#include "instruments/circle_trace_file.hpp"
+#include "instruments/traces/circle_trace_file.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "instruments/trace_table.hpp"
+#include "instruments/traces/trace_table.hpp"
 
 namespace frustum::instruments {
 namespace {
@@ -15,8 +15,8 @@ namespace {
 constexpr double kGap = 5.0;
 
 const std::vector<std::string>& columns() {
-  static const std::vector<std::string> kColumns{"run",       "angle_deg", "time_s",
-                                                 "radial_um", "radial_mm", "length_mm"};
+  static const std::vector<std::string> kColumns{"run",        "angle_deg", "time_s",   "radial_um",
+                                                 "reading_um", "radial_mm", "length_mm"};
   return kColumns;
 }
 
@@ -123,7 +123,8 @@ class TraceReader {
                                  table_.header_line());
     };
     if (auto problem = one_of({"angle_deg", "time_s"}, place_)) return problem;
-    if (auto problem = one_of({"radial_um", "radial_mm", "length_mm"}, reading_)) return problem;
+    if (auto problem = one_of({"radial_um", "reading_um", "radial_mm", "length_mm"}, reading_))
+      return problem;
     by_time_ = place_ == "time_s";
     if (reading_ == "length_mm" && !(all.length > 0.0)) {
       return table_.placed(error("length-unknown"_id, "lengths need the nominal length of the bar",
@@ -138,9 +139,19 @@ class TraceReader {
           run->line);
     }
     if (run_ || table_.has("run")) return std::nullopt;
+    if (words_.sense_may_be_missing) {
+      run_ = rises() ? Sense::ccw : Sense::cw;
+      return std::nullopt;
+    }
     return table_.placed(error("run-unknown"_id, "the file does not say in which sense it was run",
                                "add a column run with ccw or cw, or a comment \"# run ccw\""),
                          table_.header_line());
+  }
+
+  [[nodiscard]] bool rises() const {
+    if (by_time_ || table_.rows() < 2) return true;
+    const auto first = table_.number(0, place_), last = table_.number(table_.rows() - 1, place_);
+    return !first || !last || *last >= *first;
   }
 
   std::optional<Diagnostics> read_rows(double length, Runs& runs) {
@@ -159,7 +170,7 @@ class TraceReader {
       if (!place) return place.error();
       const auto reading = table_.number(row, reading_);
       if (!reading) return reading.error();
-      const double deviation = reading_ == "radial_um"   ? *reading / kUmPerMm
+      const double deviation = reading_.ends_with("_um") ? *reading / kUmPerMm
                                : reading_ == "length_mm" ? *reading - length
                                                          : *reading;
       if (std::abs(deviation) > words_.stroke) {

@@ -1,4 +1,4 @@
-#include "instruments/line_trace_file.hpp"
+#include "instruments/traces/line_trace_file.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/units.hpp"
-#include "instruments/trace_table.hpp"
+#include "instruments/traces/trace_table.hpp"
 
 namespace frustum::instruments {
 namespace {

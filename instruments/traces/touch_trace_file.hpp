@@ -3,6 +3,7 @@
 // Text   : columns A_deg, C_deg, point, x_mm, y_mm, z_mm (trace_table.hpp), rows in any order:
 //          positions of the axes, point of touch_plan.hpp, and the touched point, the radius of the
 //          ball taken off; or ball_x_mm, ball_y_mm, ball_z_mm, the centre of the ball
+//          (A, C, POINT, BALLX, BALLY, BALLZ as DPRNT writes them)
 // Units  : as the columns say; x, y, z in machine coordinates from the crossing of the axes A and C
 // Shape  : out: a reading a touch of the plan, mm outward along its nominal normal; what lies
 //          across the normal is not looked at

@@ -1,4 +1,4 @@
-#include "instruments/touch_trace_file.hpp"
+#include "instruments/traces/touch_trace_file.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/decimal.hpp"
 #include "core/units.hpp"
-#include "instruments/trace_table.hpp"
+#include "instruments/traces/trace_table.hpp"
 
 namespace frustum::instruments {
 namespace {
@@ -16,6 +16,8 @@ constexpr double kSamePosition = 0.01 * kRadPerDeg;  // an axis that is indexed,
 const std::vector<std::string> kPlaces{"A_deg", "C_deg", "point"};
 const std::vector<std::string> kTouched{"x_mm", "y_mm", "z_mm"};
 const std::vector<std::string> kBall{"ball_x_mm", "ball_y_mm", "ball_z_mm"};
+// As Fanuc's DPRNT writes them, which has neither small letters nor underlines.
+const std::vector<std::string> kPrinted{"A", "C", "POINT", "BALLX", "BALLY", "BALLZ"};
 
 std::vector<std::string> joined(std::vector<std::string> first,
                                 const std::vector<std::string>& second) {
@@ -72,11 +74,14 @@ std::optional<std::size_t> planned(const TouchPlan& plan, const Row& row) {
 
 Result<std::vector<double>> read_touches(const std::filesystem::path& file, const TouchPlan& plan,
                                          double ball_radius) {
-  const auto table = TraceTable::read(file, joined(joined(kPlaces, kTouched), kBall));
+  const auto table =
+      TraceTable::read(file, joined(joined(joined(kPlaces, kTouched), kBall), kPrinted));
   if (!table) return table.error();
+  const bool printed = table->has(kPrinted.front());
   // Where the machine logs the centre of the ball.
-  const bool of_ball = table->has(kBall.front()) && !table->has(kTouched.front());
-  const std::vector<std::string> columns = joined(kPlaces, of_ball ? kBall : kTouched);
+  const bool of_ball = printed || (table->has(kBall.front()) && !table->has(kTouched.front()));
+  const std::vector<std::string> columns =
+      printed ? kPrinted : joined(kPlaces, of_ball ? kBall : kTouched);
   for (const std::string& column : columns) {
     if (table->has(column)) continue;
     return table->placed(error("missing-column"_id, fmt::format("column {} is missing", column),

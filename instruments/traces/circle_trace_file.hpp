@@ -1,9 +1,10 @@
 // Measured traces of a circular test, as bar programs export them.
 //
-// Text   : columns run (ccw, cw), angle_deg or time_s, radial_um, radial_mm or length_mm
-//          (trace_table.hpp); comments "# run ccw", "# plane XY", "# radius 150", "# feed 1000",
-//          "# temperature 20". A file holds one run or both; two files hold one each. Angles of a
-//          cw run fall. A bar knows no angle: times are spread evenly over the capture arc
+// Text   : columns run (ccw, cw), angle_deg or time_s, radial_um (or reading_um),
+//          radial_mm or length_mm (trace_table.hpp); comments "# run ccw", "# plane XY", "# radius
+//          150", "# feed 1000", "# temperature 20". A file holds one run or both; two files hold
+//          one each. Angles of a cw run fall. A bar knows no angle: times are spread evenly over
+//          the capture arc
 // Units  : as the columns say; out: mm, rad
 // Errors : a run that is not said or there twice, angles that go back, gaps, deviations beyond the
 //          bar's stroke (a wrong unit), a length without nominal, statements that contradict each
@@ -26,6 +27,8 @@ struct CircleTraceWords {
   std::optional<double> length{};  // nominal, mm
   kinematics::AxisRange capture{0.0, 360.0 * kRadPerDeg};
   double stroke = 1.0;  // of the bar, to either side, mm
+  // A run that is not said is ccw where its angles rise, else cw.
+  bool sense_may_be_missing = false;
 };
 
 struct CircleTraces {

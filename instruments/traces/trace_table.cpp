@@ -1,4 +1,4 @@
-#include "instruments/trace_table.hpp"
+#include "instruments/traces/trace_table.hpp"
 
 #include <fmt/format.h>
 

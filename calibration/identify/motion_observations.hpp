@@ -1,0 +1,71 @@
+// Motion tests that were measured (ball bar, R-test, laser, touch probe) as observations of the
+// machine errors behind them.
+//
+// Model    : readings y of a test answer the tip's displacement G along directions e, the offset ds
+//            of the ball in the spindle, and the unknowns s of its mounting:
+//              y = f(errors) + R ds . e + M s + noise
+//            A test becomes rows T y: the harmonics of a trace, not its samples, whose neighbours
+//            are correlated; poses of an R-test; pose errors of touches. Combinations that the
+//            mounting cannot make are kept, in reduced form: each names one row that no other has.
+//            ds is an unknown of the study, common to the tests with one ball. f is exact; M is
+//            taken at the mounting that explains the readings of a perfect machine best
+// Units    : mm, rad
+// Shape    : rows of all tests one after the other
+// Errors   : nothing left of a test without its mounting; no reading
+// Accuracy : rounding on exact readings; second order in what the mounting is off by
+// Source   : ours; elimination of nuisance parameters by projection
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "calibration/identify/refinement.hpp"
+#include "calibration/identify/trial_model.hpp"
+#include "instruments/motion_test.hpp"
+#include "kinematics/model/machine.hpp"
+
+namespace frustum::calibration {
+
+struct MeasuredMotion {
+  std::string name{};
+  std::string ball{};  // tests with the same one share ds; empty: ds is zero or does not matter
+  double tool_length = 0.0;
+  // Where each reading is taken, and along what it sees the tip move.
+  std::vector<kinematics::AxisState> at{};
+  std::vector<Vec3> along{};
+  // What it would read with these errors, this ds and these unknowns of the mounting.
+  std::function<Eigen::VectorXd(const kinematics::GeometricErrors&, const Vec3& ds,
+                                const Eigen::VectorXd& mounting)>
+      readings{};
+  Eigen::MatrixXd of_mounting{};  // M: readings x unknowns of the mounting
+  Eigen::MatrixXd rows{};         // T: rows x readings
+  std::vector<Row> names{};       // as many as rows; the group is that of the test
+  Eigen::VectorXd measured{};
+  double noise = 0.0;                  // standard deviation of a reading
+  kinematics::GeometricErrors base{};  // errors that are there whatever the causes
+};
+
+struct MotionObservations {
+  Observations observations{};         // gain with all unknowns at zero
+  Eigen::VectorXd without_unknowns{};  // rows with all unknowns at zero
+  Model model{};
+};
+
+// Three unknowns, X, Y and Z in the frame of the tool, for each ball of the tests.
+[[nodiscard]] std::vector<Unknown> ball_unknowns(const std::vector<MeasuredMotion>& motions);
+
+// `unknowns`: those of the causes one by one, then the balls'. Causes without a machine error (tool
+// radii) do nothing.
+[[nodiscard]] Result<MotionObservations> observations_of(const kinematics::Machine& machine,
+                                                         const std::vector<MeasuredMotion>& motions,
+                                                         std::vector<Unknown> unknowns,
+                                                         const std::vector<Cause>& causes);
+
+// Standard deviation of white noise that leaves the same uncertainty as residuals whose neighbours
+// are correlated: their root mean square times the root of the sum of their autocorrelation up to
+// its first zero. `parameters`: that the residuals were fitted with.
+[[nodiscard]] double effective_noise(const Eigen::VectorXd& residuals, int parameters);
+
+}  // namespace frustum::calibration
