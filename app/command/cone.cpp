@@ -54,10 +54,7 @@ Result<ConeFrustum> cone_of(const ConeOptions& o) {
     if (!center) return center.error();
     cone.center = Vec3((*center)[0], (*center)[1], (*center)[2]);
   }
-  const bool no_vectors = o.form.empty() && o.dialect == "linuxcnc";
-  cone.form = o.form == "axes"                   ? programs::ProgramForm::axes
-              : o.form == "angles" || no_vectors ? programs::ProgramForm::angles
-                                                 : programs::ProgramForm::vector;
+  cone.form = form_of(o.form, o.dialect);
   cone.limits = o.limits == "tenth" ? programs::ConeLimits::tenth : programs::ConeLimits::nas979;
   return cone;
 }
@@ -96,10 +93,7 @@ void add_cone(Command& kinds) {
   cone.option("--chord-tolerance", o->chord_tolerance, "Of finished circles, um (0.005)");
   cone.option("--feed", o->feed, "mm/min (500)");
   cone.option("--speed", o->speed, "Spindle, 1/min (8333)");
-  cone.option("--form", o->form,
-              "vector (G43.5; default), angles (G43.4; default for linuxcnc) or axes (axis "
-              "positions)")
-      .one_of({"vector", "angles", "axes"});
+  add_form_option(cone, o->form);
   cone.option("--limits", o->limits, "nas979, or tenth: a tenth of its limits")
       .one_of({"nas979", "tenth"});
   cone.footer("Example: frustum program cone --machine iwf-bc --center=-65,0,150 --out cone");

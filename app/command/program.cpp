@@ -6,6 +6,7 @@
 #include "app/command/commands.hpp"
 #include "app/job/machine_files.hpp"
 #include "app/view/console.hpp"
+#include "programs/milling/posed_program.hpp"
 
 namespace frustum::app {
 
@@ -37,12 +38,28 @@ void add_piece_options(Command& kind, PieceOptions& options, const std::string& 
   add_answer_options(kind, options);
 }
 
+void add_form_option(Command& kind, std::string& form) {
+  kind.option("--form", form,
+              "vector (G43.5; default), angles (G43.4; default for linuxcnc) or axes (axis "
+              "positions)")
+      .one_of({"vector", "angles", "axes"});
+}
+
+programs::ProgramForm form_of(const std::string& form, const std::string& dialect) {
+  if (form == "axes") return programs::ProgramForm::axes;
+  const bool no_vectors = form.empty() && dialect == "linuxcnc";
+  return form == "angles" || no_vectors ? programs::ProgramForm::angles
+                                        : programs::ProgramForm::vector;
+}
+
 void add_program(Command& program) {
   Command kinds = program.command("program", "Write a test piece: NC program, plan, job");
   kinds.needs_a_command();
   add_cone(kinds);
   add_step(kinds);
   add_contour(kinds);
+  add_s_piece(kinds);
+  add_surface(kinds);
 }
 
 }  // namespace frustum::app

@@ -27,6 +27,8 @@ bool has_derivative(CharacteristicKind kind) {
     case CharacteristicKind::diameter:
     case CharacteristicKind::line_distance:
     case CharacteristicKind::line_angle:
+    case CharacteristicKind::thickness:
+    case CharacteristicKind::deviation:
       return true;
     default:
       return false;

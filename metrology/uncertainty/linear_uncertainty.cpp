@@ -63,7 +63,8 @@ Eigen::VectorXd parts_of(const CharacteristicResult& c) {
 // A profile or straightness of several features tolerances all of them.
 bool is_toleranced(const PlannedCharacteristic& planned, const std::string& feature) {
   if (planned.kind != CharacteristicKind::surface_profile &&
-      planned.kind != CharacteristicKind::straightness) {
+      planned.kind != CharacteristicKind::straightness &&
+      planned.kind != CharacteristicKind::thickness) {
     return planned.features.front() == feature;
   }
   const auto& all = planned.features;
@@ -155,7 +156,8 @@ bool is_form(CharacteristicKind kind) {
 bool is_seen_in_frame(const PlannedCharacteristic& c) {
   using enum CharacteristicKind;
   constexpr std::array kSizes{radius, diameter, half_angle};
-  constexpr std::array kInFrame{line_distance, line_angle, line_profile, surface_profile, position};
+  constexpr std::array kInFrame{line_distance,   line_angle, line_profile,
+                                surface_profile, position,   thickness};
   if (std::find(kSizes.begin(), kSizes.end(), c.kind) != kSizes.end()) return false;
   return c.features.size() < 2 ||
          std::find(kInFrame.begin(), kInFrame.end(), c.kind) != kInFrame.end();

@@ -1,4 +1,4 @@
-#include "programs/cone/linearised_axes.hpp"
+#include "programs/milling/linearised_axes.hpp"
 
 #include "kinematics/model/chain.hpp"
 #include "kinematics/model/inverse.hpp"
