@@ -8,12 +8,10 @@
 namespace frustum {
 namespace {
 
-constexpr std::size_t kMostDegree = 3;
+constexpr std::size_t kMostDegree = SplineSurface::kMostDegree;
 
-// The functions that are not zero at a parameter, with derivatives; the first belongs to point
-// `first`.
+// The functions that are not zero in a span, with two derivatives, at a parameter in it.
 struct Basis {
-  std::size_t first = 0, count = 0;
   std::array<std::array<double, kMostDegree + 1>, 3> value{};
 };
 
@@ -24,12 +22,9 @@ double knot(std::size_t i, std::size_t degree, std::size_t spans) {
   return static_cast<double>(i - degree) / static_cast<double>(spans);
 }
 
-Basis inside(double t, std::size_t points) {
-  const std::size_t p = std::min(points - 1, kMostDegree);
-  const std::size_t spans = points - p;
-  const auto span = std::min(static_cast<std::size_t>(t * static_cast<double>(spans)), spans - 1);
-  const std::size_t k = span + p;  // knot(k) <= t < knot(k + 1)
-  // table[j][r]: above the diagonal functions, below it differences of knots.
+Basis basis_in(std::size_t span, double t, std::size_t p, std::size_t spans) {
+  const std::size_t k = span + p;  // knot(k) <= t <= knot(k + 1)
+  // table[r][j]: functions above the diagonal, differences of knots below it.
   std::array<std::array<double, kMostDegree + 1>, kMostDegree + 1> table{};
   std::array<double, kMostDegree + 1> left{}, right{};
   table[0][0] = 1.0;
@@ -45,7 +40,7 @@ Basis inside(double t, std::size_t points) {
     }
     table[j][j] = saved;
   }
-  Basis basis{span, p + 1, {}};
+  Basis basis;
   for (std::size_t r = 0; r <= p; ++r) {
     basis.value[0][r] = table[r][p];
     // A derivative is a difference of functions of one degree less, over the knots between.
@@ -76,16 +71,49 @@ Basis inside(double t, std::size_t points) {
   return basis;
 }
 
-// Beyond the ends straight on.
-Basis functions(double t, std::size_t points) {
-  const double within = std::clamp(t, 0.0, 1.0);
-  Basis basis = inside(within, points);
-  if (t == within) return basis;
-  for (std::size_t r = 0; r < basis.count; ++r) {
-    basis.value[0][r] += (t - within) * basis.value[1][r];
-    basis.value[2][r] = 0.0;
+// Powers 0 to 3 of the way into the span, of each function in it: [function][power].
+using Powers = std::array<std::array<double, kMostDegree + 1>, kMostDegree + 1>;
+std::vector<Powers> powers_of(std::size_t points) {
+  const std::size_t p = std::min(points - 1, kMostDegree), spans = points - p;
+  const double width = 1.0 / static_cast<double>(spans);
+  std::vector<Powers> all(spans);
+  for (std::size_t span = 0; span < spans; ++span) {
+    const double from = static_cast<double>(span) * width;
+    const Basis low = basis_in(span, from, p, spans);
+    const Basis high = basis_in(span, static_cast<double>(span + 1) * width, p, spans);
+    for (std::size_t r = 0; r <= p; ++r) {
+      all[span][r] = {low.value[0][r], low.value[1][r], 0.5 * low.value[2][r],
+                      p < 3 ? 0.0 : (high.value[2][r] - low.value[2][r]) / (6.0 * width)};
+    }
   }
-  return basis;
+  return all;
+}
+
+// The span of a parameter, the way into it, and how far it is beyond the ends.
+struct Place {
+  std::size_t span = 0;
+  double in = 0.0, beyond = 0.0;
+};
+Place place_of(double t, std::size_t spans) {
+  const double within = std::clamp(t, 0.0, 1.0);
+  const auto count = static_cast<double>(spans);
+  const auto span = std::min(static_cast<std::size_t>(within * count), spans - 1);
+  return {span, within - static_cast<double>(span) / count, t - within};
+}
+
+// A polynomial with two derivatives; beyond the ends straight on.
+struct Derived {
+  Vec3 value, first, second;
+};
+Derived derived(const std::array<Vec3, kMostDegree + 1>& c, const Place& at) {
+  const double t = at.in;
+  Derived d{c[0] + t * (c[1] + t * (c[2] + t * c[3])), c[1] + t * (2.0 * c[2] + 3.0 * t * c[3]),
+            2.0 * c[2] + 6.0 * t * c[3]};
+  if (at.beyond != 0.0) {
+    d.value += at.beyond * d.first;
+    d.second.setZero();
+  }
+  return d;
 }
 
 }  // namespace
@@ -99,6 +127,28 @@ double SplinePoint::curvature_along_u() const {
 SplineSurface::SplineSurface(std::vector<Vec3> net, std::size_t columns)
     : net_(std::move(net)), columns_(columns) {
   assert(columns >= 2 && net_.size() >= 2 * columns && net_.size() % columns == 0);
+  const auto in_u = powers_of(columns_), in_v = powers_of(rows());
+  spans_u_ = in_u.size();
+  spans_v_ = in_v.size();
+  degree_v_ = std::min(rows() - 1, kMostDegree);
+  const std::size_t degree_u = std::min(columns_ - 1, kMostDegree);
+  patches_.assign(spans_u_ * spans_v_, {});
+  for (std::size_t a = 0; a < spans_v_; ++a) {
+    for (std::size_t b = 0; b < spans_u_; ++b) {
+      Patch& patch = patches_[a * spans_u_ + b];
+      for (auto& row : patch) row.fill(Vec3::Zero());
+      for (std::size_t i = 0; i <= degree_v_; ++i) {
+        for (std::size_t j = 0; j <= degree_u; ++j) {
+          const Vec3& point = net_[(a + i) * columns_ + b + j];
+          for (std::size_t k = 0; k <= degree_v_; ++k) {
+            for (std::size_t l = 0; l <= degree_u; ++l) {
+              patch[k][l] += in_v[a][i][k] * in_u[b][j][l] * point;
+            }
+          }
+        }
+      }
+    }
+  }
   along_ = std::max<std::size_t>(41, 4 * columns_ + 1);
   // A ruling is found from its middle.
   across_ = rows() == 2 ? 1 : std::max<std::size_t>(9, 4 * rows() + 1);
@@ -121,25 +171,21 @@ SplineSurface SplineSurface::ruled(std::span<const Vec3> lower, std::span<const 
 }
 
 SplinePoint SplineSurface::at(double u, double v) const {
-  const Basis in_u = functions(u, columns_);
-  const Basis in_v = functions(v, rows());
-  SplinePoint out;
-  for (std::size_t i = 0; i < in_v.count; ++i) {
-    const Vec3* row = &net_[(in_v.first + i) * columns_ + in_u.first];
-    Vec3 r = Vec3::Zero(), du = Vec3::Zero(), duu = Vec3::Zero();
-    for (std::size_t j = 0; j < in_u.count; ++j) {
-      r += in_u.value[0][j] * row[j];
-      du += in_u.value[1][j] * row[j];
-      duu += in_u.value[2][j] * row[j];
+  const Place in_u = place_of(u, spans_u_), in_v = place_of(v, spans_v_);
+  const Patch& patch = patches_[in_v.span * spans_u_ + in_u.span];
+  std::array<Vec3, kMostDegree + 1> value, first, second;
+  for (std::size_t i = 0; i <= kMostDegree; ++i) {
+    if (i > degree_v_) {
+      value[i] = first[i] = second[i] = Vec3::Zero();
+      continue;
     }
-    out.r += in_v.value[0][i] * r;
-    out.u += in_v.value[0][i] * du;
-    out.uu += in_v.value[0][i] * duu;
-    out.v += in_v.value[1][i] * r;
-    out.uv += in_v.value[1][i] * du;
-    out.vv += in_v.value[2][i] * r;
+    const Derived d = derived(patch[i], in_u);
+    value[i] = d.value;
+    first[i] = d.first;
+    second[i] = d.second;
   }
-  return out;
+  const Derived r = derived(value, in_v), along = derived(first, in_v);
+  return {r.value, along.value, r.first, derived(second, in_v).value, along.first, r.second};
 }
 
 SplineFoot SplineSurface::nearest(const Vec3& point) const {

@@ -10,6 +10,7 @@
 // Source   : Piegl, Tiller 1997, The NURBS Book, A2.2, A2.3, 6.1
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -37,6 +38,8 @@ struct SplineFoot {
 
 class SplineSurface {
  public:
+  static constexpr std::size_t kMostDegree = 3;
+
   // Precondition: `net` has rows of `columns` points each; 2 rows and 2 columns or more.
   SplineSurface(std::vector<Vec3> net, std::size_t columns);
   // Between two curves of as many points each: v = 0 and v = 1.
@@ -63,8 +66,13 @@ class SplineSurface {
   }
 
  private:
+  // Of one span in v and one in u: [power of the way in v][power of the way in u].
+  using Patch = std::array<std::array<Vec3, kMostDegree + 1>, kMostDegree + 1>;
+
   std::vector<Vec3> net_;
   std::size_t columns_;
+  std::size_t spans_u_ = 1, spans_v_ = 1, degree_v_ = 1;
+  std::vector<Patch> patches_{};
   // Where searches begin.
   std::size_t across_, along_;  // samples in v and in u
   std::vector<double> x_{}, y_{}, z_{};

@@ -107,6 +107,14 @@ class Baseline {
     parameters.push_back({std::string(trials::kToolRadius), false, std::nullopt});
     const auto gains = trials::surface_gains(machine_, bare_piece, *trial, parameters);
     if (!gains) return gains.error();
+    // Deflection leaves material where something is cut.
+    Eigen::VectorXd cut = Eigen::VectorXd::Zero(gains->odd.rows());
+    Eigen::Index at = 0;
+    for (const auto& feature : trial->measurement.features) {
+      for (const auto& touch : feature.touches) {
+        cut[at++] = touch.provenance && touch.provenance->segment ? 1.0 : 0.0;
+      }
+    }
     Linear linear{
         Eigen::MatrixXd::Zero(gains->odd.rows(), static_cast<Eigen::Index>(unknowns_.size())),
         Eigen::VectorXd::Zero(gains->odd.rows())};
@@ -120,7 +128,7 @@ class Baseline {
       } else if (u.name.starts_with("radius.")) {
         linear.gain.col(column) = gains->odd.col(gains->odd.cols() - 1);
       } else if (u.name == "deflection") {
-        linear.gain.col(column).setOnes();
+        linear.gain.col(column) = cut;
       }
     }
     Eigen::Index row = 0;

@@ -144,6 +144,12 @@ class Maker {
     }
   }
 
+  // Not on the blank's own surface.
+  static bool is_cut(const metrology::MeasuredFeature& feature, std::size_t point) {
+    const auto& provenance = feature.touches[point].provenance;
+    return provenance && provenance->segment;
+  }
+
   // A piece as it was cut and measured.
   std::optional<Diagnostics> given(const std::string& name) {
     const auto made = benchmark_piece(name, entry_.machine, nominal_, false);
@@ -165,8 +171,10 @@ class Maker {
     std::string csv = "feature,section,x,y,z\n";
     const Pose& workpiece_from_datum = trial->measurement.workpiece_from_datum;
     for (const auto& feature : trial->measurement.features) {
-      for (const auto& p : feature.points) {
-        const Vec3 at = workpiece_from_datum.point(p.point + deflection() * p.normal);
+      for (std::size_t i = 0; i < feature.points.size(); ++i) {
+        const auto& p = feature.points[i];
+        const double left = is_cut(feature, i) ? deflection() : 0.0;
+        const Vec3 at = workpiece_from_datum.point(p.point + left * p.normal);
         csv += fmt::format("{},{},{:.7f},{:.7f},{:.7f}\n", feature.name, p.section, at.x(), at.y(),
                            at.z());
       }
@@ -197,25 +205,29 @@ class Maker {
       piece.plan.characteristics.clear();
       piece.plan.datum.reset();
       piece.plan.frames.clear();
-      const std::vector<AskedPoint> asked = chosen(piece, name, count, number);
+      const auto nominal = trials::run_trial(nominal_, GeometricErrors{}, piece, {}, options());
+      if (!nominal) return nominal.error();
+      const std::vector<AskedPoint> asked = chosen(piece, *nominal, name, count, number);
       for (const AskedPoint& a : asked) {
         csv += fmt::format("{},{},{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f}\n", a.id, name,
                            a.point.x(), a.point.y(), a.point.z(), a.normal.x(), a.normal.y(),
                            a.normal.z());
       }
-      if (auto problem = answer(piece, asked)) return problem;
+      if (auto problem = answer(piece, *nominal, asked)) return problem;
     }
     add(entry_.id + "/questions.csv", std::move(csv));
     poses();
     return std::nullopt;
   }
 
-  std::vector<AskedPoint> chosen(const TestPiece& piece, const std::string& name, std::size_t count,
-                                 std::size_t& number) const {
+  static std::vector<AskedPoint> chosen(const TestPiece& piece, const trials::Trial& nominal,
+                                        const std::string& name, std::size_t count,
+                                        std::size_t& number) {
     std::vector<AskedPoint> all;
     for (std::size_t f = 0; f < piece.plan.features.size(); ++f) {
       const auto points = metrology::planned_points(piece.plan.features[f]);
       for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!is_cut(nominal.measurement.features[f], i)) continue;
         all.push_back({"", name, points[i].point, points[i].normal, f, i});
       }
     }
@@ -239,15 +251,14 @@ class Maker {
   }
 
   // True values, and what the laws let expect.
-  std::optional<Diagnostics> answer(const TestPiece& piece, const std::vector<AskedPoint>& asked) {
+  std::optional<Diagnostics> answer(const TestPiece& piece, const trials::Trial& nominal,
+                                    const std::vector<AskedPoint>& asked) {
     const auto truth = trials::run_trial(actual_, errors_of(""), piece, {}, options());
     if (!truth) return truth.error();
     const std::vector<double> values = deviations(*truth, asked);
     for (std::size_t i = 0; i < asked.size(); ++i) {
       answers_["points"][asked[i].id] = values[i] + kUmPerMm * deflection();
     }
-    const auto nominal = trials::run_trial(nominal_, GeometricErrors{}, piece, {}, options());
-    if (!nominal) return nominal.error();
     std::vector<trials::Parameter> parameters;
     std::vector<const BenchmarkUnknown*> laws;
     for (const BenchmarkUnknown& u : unknowns_) {
@@ -255,11 +266,11 @@ class Maker {
       parameters.push_back({u.name, u.unit == "urad", u.one});
       laws.push_back(&u);
     }
-    const auto gains = trials::surface_gains(nominal_, piece, *nominal, parameters);
+    const auto gains = trials::surface_gains(nominal_, piece, nominal, parameters);
     if (!gains) return gains.error();
     std::vector<std::size_t> first;  // row of each feature
     std::size_t rows = 0;
-    for (const auto& feature : nominal->measurement.features) {
+    for (const auto& feature : nominal.measurement.features) {
       first.push_back(rows);
       rows += feature.points.size();
     }
@@ -274,7 +285,7 @@ class Maker {
       }
       if (const auto* law = find("deflection")) variance[i] += law->sd * law->sd;
     }
-    if (auto problem = add_gain_variance(piece, asked, *nominal, variance)) return problem;
+    if (auto problem = add_gain_variance(piece, asked, nominal, variance)) return problem;
     // What no law moves is still not known better than the cut is made.
     constexpr double kLeast = 0.01;  // um
     for (std::size_t i = 0; i < asked.size(); ++i) {

@@ -1,5 +1,6 @@
 // frustum compare: a part's mesh against its nominal shape.
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
@@ -105,23 +106,21 @@ Result<Pose> aligned(const CompareOptions& options, const SurfaceMesh& part,
   return measured->workpiece_from_datum.inverse();
 }
 
-std::vector<Bar> histogram_of(const std::vector<double>& sorted) {
+std::vector<Bar> histogram_of(const std::vector<double>& all, double low, double high) {
   std::vector<Bar> bars(kBars);
-  const double low = sorted.front(), high = sorted.back();
+  const double width = (high - low) / kBars;
   for (std::size_t i = 0; i < kBars; ++i) {
-    const double width = (high - low) / kBars;
     bars[i].from = low + width * static_cast<double>(i);
     bars[i].to = i + 1 == kBars ? high : low + width * static_cast<double>(i + 1);
   }
-  std::size_t bar = 0;
-  for (const double d : sorted) {
-    while (bar + 1 < kBars && d > bars[bar].to) ++bar;
-    ++bars[bar].count;
+  for (const double d : all) {
+    const double place = width > 0.0 ? (d - low) / width : 0.0;
+    ++bars[std::min(static_cast<std::size_t>(place), kBars - 1)].count;
   }
   return bars;
 }
 
-Result<Comparison> compared(const CompareOptions& options, SurfaceMesh& part) {
+Result<Comparison> compared(const CompareOptions& options, SurfaceMesh& part, SurfaceMesh shape) {
   Comparison found;
   if (!options.tolerance.empty()) {
     const auto tolerance = parse_quantity(options.tolerance);
@@ -133,9 +132,7 @@ Result<Comparison> compared(const CompareOptions& options, SurfaceMesh& part) {
     }
     found.tolerance = tolerance->value;
   }
-  auto shape = read_shape(options.nominal);
-  if (!shape) return std::move(shape).error();
-  const stock::FacetSolid nominal(std::move(shape->vertices), std::move(shape->triangles));
+  const stock::FacetSolid nominal(std::move(shape.vertices), std::move(shape.triangles));
   found.nominal_facets = nominal.facets().size();
   found.aligned = options.align;
   const auto pose = aligned(options, part, nominal);
@@ -151,23 +148,24 @@ Result<Comparison> compared(const CompareOptions& options, SurfaceMesh& part) {
   }
   if (all.empty()) return error("nothing-to-compare"_id, "the part has no vertices");
   found.points = all.size();
-  std::ranges::sort(all);
-  found.lowest = all.front();
-  found.highest = all.back();
+  const auto [low, high] = std::ranges::minmax_element(all);
+  found.lowest = *low;
+  found.highest = *high;
   double sum = 0.0, squares = 0.0;
   for (const double d : all) sum += d;
   found.mean = sum / static_cast<double>(all.size());
   for (const double d : all) squares += (d - found.mean) * (d - found.mean);
   found.sd = std::sqrt(squares / static_cast<double>(all.size()));
   found.rms = std::hypot(found.sd, found.mean);
-  for (const double share : {0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99}) {
-    found.quantiles.emplace_back(share, quantile(all, share));
-  }
-  found.histogram = histogram_of(all);
+  found.histogram = histogram_of(all, found.lowest, found.highest);
   if (found.tolerance) {
     const auto is_within = [&](double d) { return std::abs(d) <= *found.tolerance; };
     found.within = static_cast<double>(std::ranges::count_if(all, is_within)) /
                    static_cast<double>(all.size());
+  }
+  // Last: that leaves them in another order.
+  for (const double share : {0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99}) {
+    found.quantiles.emplace_back(share, quantile(all, share));
   }
   return found;
 }
@@ -231,9 +229,12 @@ int compare_meshes(const CompareOptions& options, const report::PictureOptions& 
                         "the plan's datum system says how the part lies"),
                   options);
   }
-  auto part = read_shape(options.part);
+  Result<SurfaceMesh> part{SurfaceMesh{}}, shape{SurfaceMesh{}};
+  tbb::parallel_invoke([&] { part = read_shape(options.part); },
+                       [&] { shape = read_shape(options.nominal); });
   if (!part) return refuse(part.error(), options);
-  const auto found = compared(options, *part);
+  if (!shape) return refuse(shape.error(), options);
+  const auto found = compared(options, *part, *std::move(shape));
   if (!found) return refuse(found.error(), options);
   std::vector<std::string> written;
   add_vertex_normals(*part);

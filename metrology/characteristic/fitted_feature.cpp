@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/spline_surface.hpp"
 #include "metrology/plan/nominal.hpp"
 
 namespace frustum::metrology {

@@ -19,11 +19,14 @@
 
 #include "core/pose.hpp"
 #include "core/result.hpp"
-#include "core/spline_surface.hpp"
 #include "metrology/decision_rule.hpp"
 #include "metrology/fit/association.hpp"
 #include "metrology/plan/monte_carlo_settings.hpp"
 #include "metrology/plan/report_header.hpp"
+
+namespace frustum {
+class SplineSurface;
+}  // namespace frustum
 
 namespace frustum::metrology {
 
@@ -150,10 +153,7 @@ using Strategy =
 struct NominalNet {
   std::shared_ptr<const SplineSurface> surface{};
 
-  bool operator==(const NominalNet& other) const {
-    return surface == other.surface ||
-           (surface != nullptr && other.surface != nullptr && *surface == *other.surface);
-  }
+  bool operator==(const NominalNet& other) const;
 };
 
 // How far the feature's surface reaches; deviation maps and orientation zones use it.

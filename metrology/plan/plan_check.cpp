@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/spelling.hpp"
+#include "core/spline_surface.hpp"
 #include "metrology/fit/element.hpp"
 #include "metrology/plan/datum_precedence.hpp"
 #include "metrology/plan/strategy.hpp"

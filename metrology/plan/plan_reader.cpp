@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/spline_surface.hpp"
 #include "core/toml_document.hpp"
 #include "metrology/plan/inspection_plan.hpp"
 #include "metrology/plan/plan_check.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/spline_surface.hpp"
 #include "core/units.hpp"
 #include "metrology/plan/inspection_plan.hpp"
 #include "metrology/plan/plan_names.hpp"

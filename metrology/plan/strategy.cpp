@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/spline_surface.hpp"
 #include "metrology/plan/nominal.hpp"
 
 namespace frustum::metrology {

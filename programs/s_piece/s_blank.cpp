@@ -17,8 +17,8 @@ constexpr double kBelow = 8.0;       // mm from curve C0 down to the box
 constexpr double kFree = 1.5;        // mm between box and cutter
 constexpr double kBoxHeight = 22.0;  // mm
 constexpr double kMargin = 20.0;     // mm of the box around the wall
-constexpr std::size_t kAlong = 200;  // facets' widths along a flank
-constexpr std::size_t kUp = 8;       // and up a ruling
+constexpr std::size_t kAlong = 100;  // facets' widths along a flank
+constexpr std::size_t kUp = 4;       // and up a ruling
 
 // On the parallel surface of a flank, at a height.
 Vec3 beside(const SplineSurface& flank, double u, double z) {

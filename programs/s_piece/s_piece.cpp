@@ -11,10 +11,10 @@
 namespace frustum::programs {
 namespace {
 
-constexpr double kLead = 15.0;       // mm, straight, at either end of a flank
-constexpr double kClear = 30.0;      // mm above the top, along the tool
-constexpr double kSemiFinish = 0.1;  // mm left by the first pass
-constexpr std::size_t kSemiBlocks = 1000;
+constexpr double kLead = 15.0;         // mm, straight, at either end of a flank
+constexpr double kClear = 30.0;        // mm above the top, along the tool
+constexpr double kSemiFinish = 0.1;    // mm left by the first pass
+constexpr std::size_t kSemiShare = 4;  // one block of the first pass for so many of the last
 
 constexpr std::array<std::array<double, 2>, 13> kLower{{{-101.86, 1.15},
                                                         {-96.90, 8.31},
@@ -125,7 +125,7 @@ class SPath {
                              piece_.overhang.value, piece_.method};
     const std::vector<FlankPose> path =
         flank_path(shape_.flanks[flank], cutter, kLead,
-                   finish ? piece_.blocks : std::min(piece_.blocks, kSemiBlocks));
+                   finish ? piece_.blocks : std::max<std::size_t>(10, piece_.blocks / kSemiShare));
     const auto above = [&](const FlankPose& at) {
       return moved(at, (shape_.top - at.pose.tip.z() + kClear) / at.pose.axis.z(), true);
     };
