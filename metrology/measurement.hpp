@@ -109,7 +109,7 @@ struct CharacteristicResult {
   std::string parameter{};  // of a form, as the plan states it: "t", "p", "v", "q"; else empty
   bool floating = false;    // a profile whose planned geometry was laid into its points
   double value = 0.0;
-  // In `unit`: what the cutter leaves where the machine makes no error, as far as the plan knows it.
+  // In `unit`: what the cutter leaves where the machine makes no error, where the plan knows it.
   std::optional<double> geometric{};
   std::string unit{};  // "um", "deg", "urad", "mm"
   // For characteristics that have one (half angle). 0 for those that compare lines: their value is

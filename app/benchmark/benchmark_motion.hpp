@@ -1,7 +1,7 @@
 // What motion tests of a machine of the benchmark read: how far the tip is from where it should be.
 //
-// Model : deviation of the tip of a tool of 150 mm in the table frame, um; readings have normal noise
-//         of 0.2 um. R-test: the tip stays at a ball on the table while the rotary axes turn.
+// Model : deviation of the tip of a tool of 150 mm in the table frame, um; readings have normal
+//         noise of 0.2 um. R-test: the tip stays at a ball on the table while the rotary axes turn.
 //         Ball bar: circles of 100 mm in three planes, both ways
 // Units : mm and deg for axes, um for deviations
 // Errors: none; poses out of travel are left out

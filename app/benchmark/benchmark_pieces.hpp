@@ -1,5 +1,5 @@
-// The test pieces of the benchmark: those that are given as cut and measured, and others of the same
-// kinds, elsewhere on the table, that are asked for.
+// The test pieces of the benchmark: those that are given as cut and measured, and others of the
+// same kinds, elsewhere on the table, that are asked for.
 //
 // Units : mm, rad
 // Errors: pieces that do not fit on the machine

@@ -1,5 +1,5 @@
-// Deviation of a point of a ruled surface, and thickness of a wall against its planned one: what both
-// sides have too much, each along its own normal, on average.
+// Deviation of a point of a ruled surface, and thickness of a wall against its planned one: what
+// both sides have too much, each along its own normal, on average.
 #include <fmt/format.h>
 
 #include "metrology/characteristic/evaluators.hpp"

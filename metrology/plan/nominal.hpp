@@ -23,8 +23,8 @@ namespace frustum::metrology {
 [[nodiscard]] std::optional<double> deviation_from_nominal(const InspectionPlan& plan,
                                                            const Vec3& point, const Vec3& normal);
 
-// The nominal surface of a feature that has an element; of a point the plane it is on. Its outward side is that of
-// the geometry, not of the material.
+// The nominal surface of a feature that has an element; of a point the plane it is on. Its
+// outward side is that of the geometry, not of the material.
 [[nodiscard]] Element nominal_element(const PlannedFeature& feature);
 // +1 when the material's outward normal is the element's, -1 for a hole.
 [[nodiscard]] double material_sign(const PlannedFeature& feature);

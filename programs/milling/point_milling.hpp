@@ -1,7 +1,8 @@
 // A freeform surface milled point by point with a ball-ended cutter: where it goes, pass by pass.
 //
-// Model    : the centre of the ball is at r(u, v) + R n(u, v), the tool leans from the normal by the
-//            lead towards growing u: axis = cos(lead) n + sin(lead) r_u / |r_u|, tip = centre - R axis.
+// Model    : the centre of the ball is at r(u, v) + R n(u, v), the tool leans from the normal by
+//            the lead towards growing u: axis = cos(lead) n + sin(lead) r_u / |r_u|,
+//            tip = centre - R axis.
 //            Passes run along u at equal steps of v; between two of them a cusp of about
 //            s^2 / (8 R) is left, s their distance
 // Units    : mm, rad

@@ -1,7 +1,7 @@
 // A test piece of a user's own surface: a net of control points, milled with five axes.
 //
-// Model    : the surface is a net of B-splines (core/spline_surface.hpp) in the workpiece frame. Two
-//            rows make a ruled surface, which the flank of a cylindrical cutter mills in one pass;
+// Model    : the surface is a net of B-splines (core/spline_surface.hpp) in the workpiece frame.
+//            Two rows make a ruled surface, which the flank of a cylindrical cutter mills in one pass;
 //            more rows a freeform one, which a ball-ended cutter mills pass by pass, to and fro.
 //            The blank is a sheet along the surface, with 0.3 mm left on it
 // Units    : mm, rad

@@ -6,8 +6,8 @@ namespace frustum::stock {
 
 namespace {
 
-// The side of a point whose nearest one is within a facet is that of the facet; at an edge or corner
-// the whole mesh says it.
+// The side of a point whose nearest one is within a facet is that of the facet; at an edge or
+// corner the whole mesh says it.
 double signed_from(const FacetSolid& nominal, const Vec3& point) {
   const FacetSolid::Nearest foot = nominal.nearest(point);
   const FacetSolid::Facet& facet = nominal.facets()[static_cast<std::size_t>(foot.facet)];

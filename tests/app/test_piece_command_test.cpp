@@ -28,8 +28,8 @@ TEST_F(TestPieceSystem, TheSPieceSpeaksFourDialectsAndAxisPositions) {
                {"--form axes", "s-piece.nc"}};
   json first;
   for (const auto& form : forms) {
-    const Outcome made = run(std::string("program s-piece --machine iwf-bc --blocks 200 --out s ") +
-                             form.options);
+    const Outcome made =
+        run(std::string("program s-piece --machine iwf-bc --blocks 200 --out s ") + form.options);
     ASSERT_EQ(made.exit_code, 0) << made.err;
     EXPECT_TRUE(fs::exists(folder_ / "s" / form.file)) << form.options;
     replace_in("s/job.toml", "report = true", "report = false");
@@ -68,8 +68,8 @@ TEST_F(TestPieceSystem, TheSPieceSaysWhatDoesNotFit) {
 TEST_F(TestPieceSystem, IdentifySaysWhatTheSAloneDoesNotTell) {
   ASSERT_EQ(run("program s-piece --machine zx-yac --blocks 500 --out s --quiet").exit_code, 0);
   replace_in("s/job.toml", "report = true", "report = false");
-  ASSERT_NE(run("run s/job.toml --out o --quiet --error dx_AY=8um --error gamma_YX=12urad").exit_code,
-            2);
+  ASSERT_NE(
+      run("run s/job.toml --out o --quiet --error dx_AY=8um --error gamma_YX=12urad").exit_code, 2);
   write("study.toml",
         "[[part]]\nname = \"s\"\njob = \"s/job.toml\"\nmeasured = [\"o/result.json\"]\n"
         "[uncertainty]\ncmm = { e0 = \"0.5 um\", l_per_um = 600 }\n");

