@@ -2,13 +2,13 @@
 // linear Bayes.
 //
 // Model    : unknowns z ~ N(mean, sd^2) of laws.csv; every measured point is linear in them, by
-//            the gains of an error-free cut; noise of 1 um a point of a CMM and 0.2 um of a motion test.
-//            The posterior is Gaussian, and so are the predictions from it
+//            the gains of an error-free cut; noise of 1 um a point of a CMM and
+//            0.2 um of a motion test. The posterior is Gaussian, and so are the predictions from it
 // Units    : um, urad, 1/s as the files
 // Shape    : one machine
 // Errors   : files that are missing or damaged, those of the trials
-// Accuracy : first order in the errors; tool radius, drift and deflection of each piece are unknown,
-//            servo gains are not fitted and count as noise of the prior
+// Accuracy : first order in the errors; tool radius, drift and deflection of each piece are
+//            unknowns, servo gains are not fitted and count as noise of the prior
 // Source   : textbook linear Gaussian model
 #pragma once
 

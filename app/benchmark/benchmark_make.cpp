@@ -285,7 +285,7 @@ class Maker {
       }
       if (const auto* law = find("deflection")) variance[i] += law->sd * law->sd;
     }
-    if (auto problem = add_gain_variance(piece, asked, nominal, variance)) return problem;
+    if (auto problem = add_gain_variance(piece, asked, variance)) return problem;
     // What no law moves is still not known better than the cut is made.
     constexpr double kLeast = 0.01;  // um
     for (std::size_t i = 0; i < asked.size(); ++i) {
@@ -294,17 +294,21 @@ class Maker {
     return std::nullopt;
   }
 
+  // By differences, on paths coarse enough to be quick.
   std::optional<Diagnostics> add_gain_variance(const TestPiece& piece,
                                                const std::vector<AskedPoint>& asked,
-                                               const trials::Trial& nominal,
                                                std::vector<double>& variance) const {
     if (!lags()) return std::nullopt;
-    const std::vector<double> before = deviations(nominal, asked);
+    trials::TrialOptions coarse = options();
+    coarse.path_bound = 1e-4;  // mm
+    const auto nominal = trials::run_trial(nominal_, GeometricErrors{}, piece, {}, coarse);
+    if (!nominal) return nominal.error();
+    const std::vector<double> before = deviations(*nominal, asked);
     for (const BenchmarkUnknown& u : unknowns_) {
       if (!u.name.starts_with("gain.")) continue;
       const auto machine = with_gain_changes({{u.name.back(), u.sd}});
       if (!machine) return machine.error();
-      const auto trial = trials::run_trial(*machine, GeometricErrors{}, piece, {}, options());
+      const auto trial = trials::run_trial(*machine, GeometricErrors{}, piece, {}, coarse);
       if (!trial) return trial.error();
       const std::vector<double> after = deviations(*trial, asked);
       for (std::size_t i = 0; i < asked.size(); ++i) {

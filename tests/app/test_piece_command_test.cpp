@@ -1,6 +1,7 @@
 // frustum program s-piece and surface, compare, benchmark: from the command line.
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "tests/app/command_line.hpp"
 
@@ -73,10 +74,14 @@ TEST_F(TestPieceSystem, IdentifySaysWhatTheSAloneDoesNotTell) {
   write("study.toml",
         "[[part]]\nname = \"s\"\njob = \"s/job.toml\"\nmeasured = [\"o/result.json\"]\n"
         "[uncertainty]\ncmm = { e0 = \"0.5 um\", l_per_um = 600 }\n");
+  // Not all of them are told.
   const Outcome found = run("identify study.toml --json");
-  ASSERT_EQ(found.exit_code, 0) << found.err;
+  ASSERT_EQ(found.exit_code, 1) << found.err;
   const json result = json::parse(found.out);
-  EXPECT_NE(found.out.find("alpha_ZY"), std::string::npos);
+  std::vector<std::string> told;
+  for (const json& each : result["combinations"]) told.push_back(each["text"]);
+  EXPECT_EQ(told, (std::vector<std::string>{"alpha_AY - alpha_ZY", "beta_AY - beta_ZX"}));
+  EXPECT_EQ(result["observability"]["rank"], 9);
   bool dx_found = false;
   for (const json& each : result["estimates"]) {
     if (each["name"] != "dx_AY" || !each.contains("value") || each["value"].is_null()) continue;
