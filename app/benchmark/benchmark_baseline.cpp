@@ -94,6 +94,7 @@ class Baseline {
     trials::TrialOptions options;
     options.find_collisions = false;
     options.time_law = job.controller.time_law;
+    options.path_bound = job.path_bound;
     options.servo_lag = job.controller.servo_lag;
     programs::TestPiece bare_piece = job.piece;
     bare_piece.plan = bare(bare_piece.plan);

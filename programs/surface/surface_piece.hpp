@@ -2,7 +2,8 @@
 //
 // Model    : the surface is a net of B-splines (core/spline_surface.hpp) in the workpiece frame.
 //            Two rows make a ruled surface, which the flank of a cylindrical cutter mills in one
-//            pass; more rows a freeform one, which a ball-ended cutter mills pass by pass, to and fro.
+//            pass; more rows a freeform one, which a ball-ended cutter mills pass by pass, to and
+//            fro.
 //            The blank is a sheet along the surface, with 0.3 mm left on it
 // Units    : mm, rad
 // Errors   : surface_piece() refuses nets that fold, cutters that do not fit, numbers out of range
