@@ -39,6 +39,9 @@ struct MeasuredFeature {
   std::vector<Touch> touches{};
   // Stable names of interfaces.md: point, axis (3 numbers), radius (mm), half_angle (rad).
   std::map<std::string, std::vector<double>> parameters{};
+  // mm, of each point: what the plan says that the cutter leaves where the machine makes no error;
+  // empty where it says nothing.
+  std::vector<double> geometric{};
   double form = 0.0;  // mm, peak to valley of the residuals
   double rms = 0.0;   // mm
   // mm: how far the two ways to compensate the ball set a point apart at most, along the normal;
@@ -106,6 +109,8 @@ struct CharacteristicResult {
   std::string parameter{};  // of a form, as the plan states it: "t", "p", "v", "q"; else empty
   bool floating = false;    // a profile whose planned geometry was laid into its points
   double value = 0.0;
+  // In `unit`: what the cutter leaves where the machine makes no error, where the plan knows it.
+  std::optional<double> geometric{};
   std::string unit{};  // "um", "deg", "urad", "mm"
   // For characteristics that have one (half angle). 0 for those that compare lines: their value is
   // a deviation of either sign.

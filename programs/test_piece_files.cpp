@@ -120,8 +120,8 @@ std::string job_text(const TestPiece& piece, const std::string& machine,
   return text;
 }
 
-Result<std::vector<fs::path>> write_test_piece(const TestPiece& piece, const std::string& machine,
-                                               const fs::path& folder, const std::string& sheet) {
+std::vector<std::pair<std::string, std::string>> test_piece_files(const TestPiece& piece,
+                                                                  const std::string& machine) {
   const fs::path plan = fs::path(piece.program_file).replace_extension(".plan.toml");
   std::vector<std::pair<std::string, std::string>> contents{
       {"job.toml", job_text(piece, machine, plan.string())},
@@ -130,6 +130,12 @@ Result<std::vector<fs::path>> write_test_piece(const TestPiece& piece, const std
   if (const auto* mesh = std::get_if<stock::MeshShape>(&piece.blank)) {
     contents.emplace_back(mesh->file, mesh_text(*mesh->solid));
   }
+  return contents;
+}
+
+Result<std::vector<fs::path>> write_test_piece(const TestPiece& piece, const std::string& machine,
+                                               const fs::path& folder, const std::string& sheet) {
+  auto contents = test_piece_files(piece, machine);
   if (!sheet.empty()) contents.emplace_back("setup.html", sheet);
   std::vector<std::string> names;
   for (const auto& [name, text] : contents) names.push_back(name);

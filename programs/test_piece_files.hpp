@@ -5,6 +5,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/result.hpp"
@@ -16,6 +18,10 @@ namespace frustum::programs {
 // of a file.
 [[nodiscard]] std::string job_text(const TestPiece& piece, const std::string& machine,
                                    const std::string& plan_file);
+
+// The files by their names: the job first, the NC program, the plan, the blank where it is a mesh.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> test_piece_files(
+    const TestPiece& piece, const std::string& machine);
 
 // Writes job.toml, the NC program and the plan; returns their paths, the job first.
 // With `sheet` as setup.html, where there is one. The files are exchanged as one (file_set.hpp).

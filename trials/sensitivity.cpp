@@ -1,5 +1,9 @@
 #include "trials/sensitivity.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
+#include <vector>
+
 #include "metrology/characteristic/characteristic.hpp"
 #include "metrology/cmm.hpp"
 #include "trials/surface_gain.hpp"
@@ -125,14 +129,24 @@ Result<Sensitivity> sensitivity(const Machine& machine, const GeometricErrors& e
   const auto centre = points.characteristics(Eigen::VectorXd::Zero(gains->odd.rows()));
   if (!centre) return centre.error();
   Sensitivity s = empty_for(trial->measurement, parameters);
-  for (Eigen::Index k = 0; k < gains->odd.cols(); ++k) {
-    const double step = step_of(parameters[static_cast<std::size_t>(k)], kEvaluationSteps);
+  // What went wrong, by columns: the first one counts, whichever thread finds it.
+  std::vector<Diagnostics> problems(parameters.size());
+  tbb::parallel_for(std::size_t{0}, parameters.size(), [&](std::size_t column) {
+    const auto k = static_cast<Eigen::Index>(column);
+    // What moves no point changes no characteristic.
+    if (gains->odd.col(k).isZero(0.0) && gains->even.col(k).isZero(0.0)) return;
+    const double step = step_of(parameters[column], kEvaluationSteps);
     const Eigen::VectorXd odd = step * gains->odd.col(k), even = step * gains->even.col(k);
     const auto plus = points.characteristics(even + odd);
     const auto minus = points.characteristics(even - odd);
-    if (!plus) return plus.error();
-    if (!minus) return minus.error();
-    set_column(s, k, step, *plus, *minus, *centre);
+    if (plus && minus) {
+      set_column(s, k, step, *plus, *minus, *centre);
+    } else {
+      problems[column] = plus ? minus.error() : plus.error();
+    }
+  });
+  for (Diagnostics& problem : problems) {
+    if (!problem.empty()) return std::move(problem);
   }
   return s;
 }

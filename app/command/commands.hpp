@@ -17,6 +17,10 @@ namespace frustum::kinematics {
 class Machine;
 }  // namespace frustum::kinematics
 
+namespace frustum::programs {
+enum class ProgramForm;
+}  // namespace frustum::programs
+
 namespace frustum::report {
 struct RunReport;
 }  // namespace frustum::report
@@ -41,6 +45,8 @@ void add_cmm(Command& program);
 void add_measure(Command& program);
 void add_diff(Command& program);
 void add_compensate(Command& program);
+void add_compare(Command& program);
+void add_benchmark(Command& program);
 void add_fit(Command& program);
 void add_machines(Command& program);
 void add_errors(Command& program);
@@ -53,6 +59,8 @@ void add_motion(Command& program);
 void add_cone(Command& kinds);
 void add_step(Command& kinds);
 void add_contour(Command& kinds);
+void add_s_piece(Command& kinds);
+void add_surface(Command& kinds);
 
 // The options that all kinds have: --machine, --out, --dialect.
 struct PieceOptions : AnswerOptions {
@@ -66,6 +74,11 @@ using WritesPiece = std::function<Result<std::vector<std::filesystem::path>>(
 // Finds the machine by its name, writes the piece and prints the names of its files; returns the
 // exit code.
 int write_piece(const PieceOptions& options, const WritesPiece& write);
+// How programs of five axes state the pose of the tool: what --form says, vectors where it says
+// nothing and the dialect has them.
+void add_form_option(Command& kind, std::string& form);
+[[nodiscard]] programs::ProgramForm form_of(const std::string& form, const std::string& dialect);
+
 // `files` says what is written to --out.
 void add_piece_options(Command& kind, PieceOptions& options, const std::string& files);
 

@@ -11,6 +11,7 @@
 
 #include "app/job/job_evidence.hpp"
 #include "kinematics/errors/error_assignment.hpp"
+#include "metrology/geometric_values.hpp"
 #include "metrology/plan/nominal.hpp"
 #include "metrology/probing/acceptance_test.hpp"
 #include "metrology/uncertainty/point_uncertainty.hpp"
@@ -190,6 +191,7 @@ report::RunReport report_of(const Job& job, const trials::Trial& trial, report::
     report.errors.push_back({e.name, e.written, meaning_of(job.machine, e.name)});
   }
   report.measurement = trial.measurement;
+  metrology::add_geometric_values(report.measurement, job.piece.plan);
   for (const trials::OperationTrace& operation : trial.operations) {
     report.traces.push_back(trace_of(job, operation));
   }

@@ -92,6 +92,25 @@ bool suits(const std::string& unit, bool angular) {
   return angular ? unit == "urad" || unit == "deg" : unit == "um" || unit == "mm";
 }
 
+// Of features that list them: deviations_um, in the order of the plan.
+void add_point_deviations(const nlohmann::json& json, const InspectionPlan& plan,
+                          MeasuredPart& part) {
+  if (!json.contains("features") || !json["features"].is_array()) return;
+  for (const auto& feature : json["features"]) {
+    if (!feature.is_object() || !feature.contains("name") || !feature["name"].is_string() ||
+        !feature.contains("deviations_um") || !feature["deviations_um"].is_array()) {
+      continue;
+    }
+    std::size_t i = 0;
+    for (const auto& um : feature["deviations_um"]) {
+      const std::string name = fmt::format("{}[{}]", feature["name"].get<std::string>(), i++);
+      if (um.is_number() && find(plan, name) != nullptr) {
+        part.emplace(name, MeasuredValue{um.get<double>() / kUmPerMm, {}});
+      }
+    }
+  }
+}
+
 Result<MeasuredPart> from_json(const fs::path& file, const InspectionPlan& plan) {
   const auto text = read_whole_file(file);
   if (!text) return not_a_result(file, "the file cannot be read");
@@ -122,6 +141,7 @@ Result<MeasuredPart> from_json(const fs::path& file, const InspectionPlan& plan)
       return not_a_result(file, fmt::format("'{}' is there twice", name));
     }
   }
+  add_point_deviations(json, plan, part);
   if (part.empty()) return not_a_result(file, "it has no characteristics");
   return part;
 }

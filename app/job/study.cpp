@@ -7,6 +7,7 @@
 
 #include "app/job/measured_values.hpp"
 #include "core/toml_document.hpp"
+#include "metrology/plan/point_deviations.hpp"
 #include "metrology/uncertainty/point_uncertainty.hpp"
 #include "trials/parameter.hpp"
 
@@ -18,6 +19,11 @@ using trials::Parameter;
 
 void append_all(Diagnostics& all, const Diagnostics& more) {
   all.insert(all.end(), more.begin(), more.end());
+}
+
+bool is_planned(const metrology::InspectionPlan& plan, const std::string& characteristic) {
+  return std::ranges::any_of(plan.characteristics,
+                             [&](const auto& c) { return c.name == characteristic; });
 }
 
 std::optional<StudyPart> read_part(const TomlTable& table, const fs::path& folder,
@@ -41,12 +47,19 @@ std::optional<StudyPart> read_part(const TomlTable& table, const fs::path& folde
     return std::nullopt;
   }
   StudyPart part{name, *std::move(job), {}};
+  // Surfaces tell their errors point by point.
+  metrology::InspectionPlan& plan = part.job.piece.plan;
+  plan = metrology::with_point_deviations(std::move(plan));
   for (const std::string& file : files) {
     if (auto measured = read_measured_part(folder / file, part.job.piece.plan)) {
       part.measured.push_back(*std::move(measured));
     } else {
       append_all(problems, measured.error());
     }
+  }
+  plan = metrology::without_surface_profiles(std::move(plan));
+  for (MeasuredPart& measured : part.measured) {
+    std::erase_if(measured, [&](const auto& each) { return !is_planned(plan, each.first); });
   }
   return part;
 }

@@ -25,7 +25,7 @@ const FittedFeature* measured(std::span<const FittedFeature> features, const std
 }
 
 Result<FoundDatum> best_fit_of(const DatumSystem& system, std::span<const FittedFeature> features) {
-  std::vector<Element> planned;
+  std::vector<NominalSurface> planned;
   planned.reserve(system.best_fit.size());
   std::vector<PointOnElement> points;
   for (const std::string& name : system.best_fit) {

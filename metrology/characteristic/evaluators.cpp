@@ -41,6 +41,8 @@ const auto& evaluators() {
       // Profile
       zone_by(line_profile, evaluate_line_profile),
       zone_by(surface_profile, evaluate_surface_profile),
+      Evaluator{thickness, evaluate_thickness, {"um", kUmPerMm}},
+      Evaluator{deviation, evaluate_deviation, {"um", kUmPerMm}},
       // Size
       Evaluator{radius, evaluate_radius, {"mm", 1.0}},
       Evaluator{diameter, evaluate_diameter, {"mm", 1.0}},

@@ -2,7 +2,8 @@
 // says which; docs/characteristics.md defines them.
 //
 // Model    : each evaluator is one family of tolerances: form.cpp, straightness.cpp,
-//            orientation.cpp, location.cpp, run_out.cpp, profile.cpp, size.cpp, lines.cpp
+//            orientation.cpp, location.cpp, run_out.cpp, profile.cpp, thickness.cpp, size.cpp,
+//            lines.cpp
 // Units    : mm, rad; all features in one frame, in which the plan holds
 // Shape    : one characteristic a call
 // Errors   : sections with too few points, fits and filters that fail
@@ -86,6 +87,10 @@ struct Evaluator {
 // profile.cpp
 [[nodiscard]] Result<Evaluated> evaluate_line_profile(const Toleranced& what);
 [[nodiscard]] Result<Evaluated> evaluate_surface_profile(const Toleranced& what);
+
+// thickness.cpp
+[[nodiscard]] Result<Evaluated> evaluate_thickness(const Toleranced& what);
+[[nodiscard]] Result<Evaluated> evaluate_deviation(const Toleranced& what);
 
 // size.cpp
 [[nodiscard]] Result<Evaluated> evaluate_radius(const Toleranced& what);

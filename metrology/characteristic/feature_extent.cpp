@@ -58,6 +58,7 @@ std::vector<Vec3> planned_extremes(const PlannedFeature& planned, const Vec3& to
     case FeatureKind::circle:
     case FeatureKind::sphere:
     case FeatureKind::point:
+    case FeatureKind::ruled:
       break;
   }
   return {planned.point};

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/spline_surface.hpp"
 #include "metrology/plan/nominal.hpp"
 
 namespace frustum::metrology {
@@ -16,7 +17,7 @@ namespace {
 // In the order of FeatureKind.
 constexpr std::array kElements{ElementKind::plane,  ElementKind::cylinder, ElementKind::cone,
                                ElementKind::circle, ElementKind::line,     ElementKind::sphere,
-                               ElementKind::plane};
+                               ElementKind::plane,  ElementKind::plane};
 
 // One touch tells a place along the planned normal and nothing else: a plane that keeps the planned
 // normal, through the mean of what was touched.
@@ -42,9 +43,42 @@ Result<Fit<Element>> fit_touches(const PlannedFeature& planned, std::span<const 
   return fit;
 }
 
+// Nothing is fitted: deviations are those from the planned surface. The plane is no more than where
+// it is.
+Result<Fit<Element>> no_fit(const PlannedFeature& planned, std::span<const Vec3> centres,
+                            double ball_radius) {
+  if (centres.empty()) return error("too-few-points"_id, "no point given, 1 needed");
+  const SplinePoint middle = planned.net.surface->at(0.5, 0.5);
+  Fit<Element> fit;
+  fit.element = Plane{middle.r, unit(middle.normal())};
+  for (const Vec3& p : centres) {
+    if (!p.allFinite()) return error("point-not-finite"_id, "a coordinate is not a finite number");
+    fit.residuals.push_back(planned.net.surface->nearest(p).distance - ball_radius);
+    fit.rms += fit.residuals.back() * fit.residuals.back() / static_cast<double>(centres.size());
+  }
+  fit.rms = std::sqrt(fit.rms);
+  const auto [low, high] = std::minmax_element(fit.residuals.begin(), fit.residuals.end());
+  fit.form = *high - *low;
+  fit.cofactor = fit.covariance = Mat3::Zero();
+  return fit;
+}
+
+// Of ball centres, or of surface points when the radius is 0.
+std::vector<MeasuredPoint> on_net(const PlannedFeature& planned, const std::vector<Vec3>& centres,
+                                  const std::vector<std::size_t>& sections, double ball_radius) {
+  std::vector<MeasuredPoint> points;
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    const SplineFoot foot = planned.net.surface->nearest(centres[i]);
+    points.push_back({centres[i] - ball_radius * foot.normal, foot.normal,
+                      foot.distance - ball_radius, sections[i]});
+  }
+  return points;
+}
+
 Result<Fit<Element>> fit_planned(const PlannedFeature& planned, std::span<const Vec3> centres,
                                  double ball_radius, FitStart start) {
   if (planned.kind == FeatureKind::point) return fit_touches(planned, centres);
+  if (planned.kind == FeatureKind::ruled) return no_fit(planned, centres, ball_radius);
   FitOptions options;
   options.expected = nominal_element(planned);
   const ElementKind kind = kElements.at(static_cast<std::size_t>(planned.kind));
@@ -95,6 +129,10 @@ Result<FittedFeature> feature_from(const PlannedFeature& planned, Fit<Element> f
         fmt::format("feature '{}': the measured cone opens against the planned axis", planned.name),
         "the axis of a cone points toward the growing radius");
   }
+  if (planned.kind == FeatureKind::ruled) {
+    return FittedFeature{&planned, fit.element, on_net(planned, centres, sections, ball_radius),
+                         fit.form, fit.rms,     std::move(fit.cofactor)};
+  }
   const Element centre_element = agreeing(fit.element, planned.axis);
   const double sign = material_sign(planned);
   // Residuals of a plane follow the normal that was fitted.
@@ -128,6 +166,12 @@ FittedFeature transformed(const Pose& to_from, FittedFeature feature) {
     p.point = to_from.point(p.point);
     p.normal = to_from.direction(p.normal);
   }
+  if (feature.planned->kind == FeatureKind::ruled) {
+    // The planned surface stays in the frame of the plan, and the points move against it.
+    std::vector<std::size_t> sections;
+    for (const MeasuredPoint& p : feature.points) sections.push_back(p.section);
+    feature.points = on_net(*feature.planned, feature.all_points(), sections, 0.0);
+  }
   return feature;
 }
 
@@ -155,6 +199,7 @@ MeasuredFeature summary(const FittedFeature& feature) {
   out.form = feature.form;
   out.rms = feature.rms;
   out.compensation_difference = feature.compensation_difference;
+  if (feature.planned->kind == FeatureKind::ruled) return out;
   std::visit(
       [&](const auto& e) {
         out.parameters["point"] = numbers(e.point);

@@ -48,6 +48,7 @@ Target planned_place(const PlannedFeature& planned) {
     case FeatureKind::cylinder:
     case FeatureKind::cone:
     case FeatureKind::circle:
+    case FeatureKind::ruled:  // has no position
       break;
   }
   return Line{planned.point, unit(planned.axis)};

@@ -19,7 +19,7 @@ namespace {
 
 struct ProbedSurface {
   const FittedFeature* feature = nullptr;
-  Element planned{};
+  NominalSurface planned{};
   std::vector<Vec3> points{};
 };
 

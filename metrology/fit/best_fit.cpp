@@ -40,7 +40,7 @@ Vec3 centre_of(std::span<const PointOnElement> points, const std::array<bool, 6>
 // The points and elements about `centre`, so that coordinates are no larger than the part, and the
 // degrees that are free.
 struct Task {
-  std::vector<Element> elements{};
+  std::vector<NominalSurface> elements{};
   std::vector<Vec3> points{};
   std::vector<std::size_t> element_of{};  // of each point, in `elements`
   double size = 1.0;
@@ -53,7 +53,7 @@ Task task_of(std::span<const PointOnElement> points, const Vec3& centre,
   task.locked = locked;
   task.size = 0.0;
   const Pose to_centre{Mat3::Identity(), -centre};
-  std::map<const Element*, std::size_t> known;
+  std::map<const NominalSurface*, std::size_t> known;
   for (const PointOnElement& p : points) {
     const auto [place, is_new] = known.try_emplace(p.planned, task.elements.size());
     if (is_new) task.elements.push_back(transformed(to_centre, *p.planned));
@@ -93,16 +93,16 @@ struct Normal {
 Normal normal_of(const Task& task, const Pose& planned_from_measured) {
   Normal n;
   for (std::size_t i = 0; i < task.points.size(); ++i) {
-    const Element& planned = task.elements[task.element_of[i]];
+    const NominalSurface& planned = task.elements[task.element_of[i]];
     const Vec3 x = planned_from_measured.point(task.points[i]);
-    const Vec3 normal = outward_normal(planned, x);
+    const NominalFoot foot = nearest(planned, x);
     Vec6 row;
-    row << normal, x.cross(normal) / task.size;
+    row << foot.normal, x.cross(foot.normal) / task.size;
     for (Eigen::Index k = 0; k < 6; ++k) {
       if (task.locked[static_cast<std::size_t>(k)]) row[k] = 0.0;
     }
     n.matrix += row * row.transpose();
-    n.right -= row * residual(planned, x);
+    n.right -= row * foot.distance;
   }
   return n;
 }
@@ -190,7 +190,7 @@ double bend_of_untold(const Task& laid, Telling telling) {
   for (const Vec6& way : untold) {
     const Pose moves = screw_of(kTurn * laid.size * way, laid.size);
     for (std::size_t i = 0; i < laid.points.size(); ++i) {
-      const Element& planned = laid.elements[laid.element_of[i]];
+      const NominalSurface& planned = laid.elements[laid.element_of[i]];
       const double before = residual(planned, laid.points[i]);
       const double after = residual(planned, moves.point(laid.points[i]));
       largest = std::max(largest, std::abs(after - before));

@@ -18,13 +18,13 @@
 #include <span>
 
 #include "core/result.hpp"
-#include "metrology/fit/element.hpp"
+#include "metrology/fit/nominal_surface.hpp"
 
 namespace frustum::metrology {
 
 struct PointOnElement {
-  Vec3 point = Vec3::Zero();         // measured
-  const Element* planned = nullptr;  // outlives the call
+  Vec3 point = Vec3::Zero();                // measured
+  const NominalSurface* planned = nullptr;  // outlives the call
 };
 
 struct BestFit {

@@ -199,6 +199,9 @@ void DatumPrecedence::hold(const Datum& datum, std::size_t index, const Pose& po
       return;
     case FeatureKind::sphere:
       for (Eigen::Index k = 0; k < 3; ++k) hold(index, Vec3::Unit(k), place, pose);
+      return;
+    case FeatureKind::ruled:  // a datum of a best fit alone
+      return;
   }
 }
 

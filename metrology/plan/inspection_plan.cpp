@@ -1,5 +1,6 @@
 #include "metrology/plan/inspection_plan.hpp"
 
+#include "core/spline_surface.hpp"
 #include "metrology/plan/plan_names.hpp"
 
 namespace frustum::metrology {
@@ -11,6 +12,11 @@ bool is_round(FeatureKind kind) {
   return kind == FeatureKind::cylinder || kind == FeatureKind::cone ||
          kind == FeatureKind::circle || kind == FeatureKind::sphere;
 }
+bool NominalNet::operator==(const NominalNet& other) const {
+  return surface == other.surface ||
+         (surface != nullptr && other.surface != nullptr && *surface == *other.surface);
+}
+
 Strategy single_touch() { return RingStrategy{{0.0}, 1, 0.0, 2.0 * std::numbers::pi}; }
 
 std::string_view name_of(CharacteristicKind kind) {
@@ -27,6 +33,8 @@ bool has_derivative(CharacteristicKind kind) {
     case CharacteristicKind::diameter:
     case CharacteristicKind::line_distance:
     case CharacteristicKind::line_angle:
+    case CharacteristicKind::thickness:
+    case CharacteristicKind::deviation:
       return true;
     default:
       return false;

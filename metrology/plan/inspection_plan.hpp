@@ -9,6 +9,7 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -22,6 +23,10 @@
 #include "metrology/fit/association.hpp"
 #include "metrology/plan/monte_carlo_settings.hpp"
 #include "metrology/plan/report_header.hpp"
+
+namespace frustum {
+class SplineSurface;
+}  // namespace frustum
 
 namespace frustum::metrology {
 
@@ -38,8 +43,9 @@ struct ProbeSettings {
   bool operator==(const ProbeSettings&) const = default;
 };
 
-// A point is one touch on a surface, whose normal is its `axis`; it has no strategy.
-enum class FeatureKind { plane, cylinder, cone, circle, line, sphere, point };
+// A point is one touch on a surface, whose normal is its `axis`; it has no strategy. Of a ruled
+// surface nothing is fitted: its points are compared with the planned one.
+enum class FeatureKind { plane, cylinder, cone, circle, line, sphere, point, ruled };
 enum class Side { outside, inside };  // a boss, probed from without; a hole, probed from within
 
 // Strategies take a number of points or, where `pitch` is greater than 0, a distance between
@@ -125,8 +131,30 @@ struct SphereStrategy {
 
   bool operator==(const SphereStrategy&) const = default;
 };
-using Strategy = std::variant<SectionStrategy, RingStrategy, GridStrategy, LineStrategy,
-                              GeneratrixStrategy, SpiralStrategy, SphereStrategy>;
+// Lines along a ruled or freeform surface, at shares of its height (v), with points at equal steps
+// of u; a line is a section.
+struct SurfaceLineStrategy {
+  std::vector<double> heights{0.2, 0.5, 0.8};
+  double from = 0.02;  // of u
+  double to = 0.98;
+  int points = 49;
+  bool scan = false;
+  // mm, in the order of the points: what is left of the material where the machine makes no error,
+  // because the cutter cannot do better. Reports give it a column of its own. Empty: nothing known.
+  std::vector<double> geometric{};
+
+  bool operator==(const SurfaceLineStrategy&) const = default;
+};
+using Strategy =
+    std::variant<SectionStrategy, RingStrategy, GridStrategy, LineStrategy, GeneratrixStrategy,
+                 SpiralStrategy, SphereStrategy, SurfaceLineStrategy>;
+
+// The planned surface of a ruled feature: a net of points (spline_surface.hpp).
+struct NominalNet {
+  std::shared_ptr<const SplineSurface> surface{};
+
+  bool operator==(const NominalNet& other) const;
+};
 
 // How far the feature's surface reaches; deviation maps and orientation zones use it.
 struct AxialExtent {
@@ -164,6 +192,7 @@ struct PlannedFeature {
   // Where angles about the axis start; absent: workpiece X, or Y when the axis is within 26 deg of
   // X.
   std::optional<Vec3> zero{};
+  NominalNet net{};  // ruled; `point` and `axis` do not count
   Strategy strategy{};
   Extent extent{};
 
@@ -242,6 +271,9 @@ enum class CharacteristicKind {
   total_run_out,      // features = [toleranced, datum, ...]: the whole surface
   line_profile,       // each section against the planned surface
   surface_profile,    // all points of one feature or several against the planned surfaces
+  thickness,  // features = [one side, the other]: mean deviation of both, each out of the material,
+              // of one section or of all
+  deviation,  // of one point of a ruled feature, out of the material
 };
 
 // Of a form: peak to valley, highest peak, deepest valley, root mean square (RONt, RONp, RONv,
@@ -289,6 +321,7 @@ struct PlannedCharacteristic {
   bool deviation = false;  // sizes: the value is the deviation from the nominal one
   // Roundness, equivalent_cone_form: the value without this sector is reported beside the whole.
   std::optional<Seam> seam{};
+  std::optional<std::size_t> point{};  // deviation: which point of its feature, the first is 0
 
   bool operator==(const PlannedCharacteristic&) const = default;
 };

@@ -44,12 +44,22 @@ bool owns(const PlannedFeature& feature, const Vec3& point) {
     }
     case FeatureKind::sphere:
       return true;
+    case FeatureKind::ruled: {
+      const SplineFoot foot = feature.net.surface->nearest(point);
+      return foot.u >= 0.0 && foot.u <= 1.0 && foot.v >= 0.0 && foot.v <= 1.0;
+    }
     case FeatureKind::circle:
     case FeatureKind::line:
     case FeatureKind::point:
       break;
   }
   return false;  // curves and points own no surface
+}
+
+// Of what has an element, that; a line is none of surfaces.
+NominalSurface nominal_surface(const PlannedFeature& feature) {
+  if (feature.kind == FeatureKind::ruled) return PlacedNet{feature.net.surface, {}};
+  return nominal_element(feature);
 }
 
 }  // namespace
@@ -70,6 +80,7 @@ Element nominal_element(const PlannedFeature& feature) {
     case FeatureKind::sphere:
       return Sphere{feature.point, feature.radius};
     case FeatureKind::line:
+    case FeatureKind::ruled:
       break;
   }
   return Line{feature.point, axis};
@@ -84,18 +95,18 @@ std::optional<double> deviation_from_nominal(const InspectionPlan& plan, const V
   std::optional<double> best;
   for (const PlannedFeature& feature : plan.features) {
     if (!owns(feature, point)) continue;
-    const Element element = nominal_element(feature);
     const double sign = material_sign(feature);
-    const double deviation = sign * residual(element, point);
+    const NominalFoot foot = nearest(nominal_surface(feature), point);
+    const double deviation = sign * foot.distance;
     if (std::abs(deviation) >= kNear) continue;
-    if (sign * outward_normal(element, point).dot(normal) < kSameDirection) continue;
+    if (sign * foot.normal.dot(normal) < kSameDirection) continue;
     if (!best || std::abs(deviation) < std::abs(*best)) best = deviation;
   }
   return best;
 }
 
-Element planned_surface(const PlannedFeature& planned) {
-  if (planned.kind != FeatureKind::line) return nominal_element(planned);
+NominalSurface planned_surface(const PlannedFeature& planned) {
+  if (planned.kind != FeatureKind::line) return nominal_surface(planned);
   const Vec3 axis = unit(planned.axis);
   return Plane{planned.point, unit(planned.normal - planned.normal.dot(axis) * axis)};
 }

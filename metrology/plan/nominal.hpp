@@ -14,6 +14,7 @@
 
 #include "core/pose.hpp"
 #include "metrology/fit/element.hpp"
+#include "metrology/fit/nominal_surface.hpp"
 #include "metrology/plan/inspection_plan.hpp"
 
 namespace frustum::metrology {
@@ -22,13 +23,13 @@ namespace frustum::metrology {
 [[nodiscard]] std::optional<double> deviation_from_nominal(const InspectionPlan& plan,
                                                            const Vec3& point, const Vec3& normal);
 
-// The nominal surface of a feature; of a point the plane it is on. Its outward side is that of
-// the geometry, not of the material.
+// The nominal surface of a feature that has an element; of a point the plane it is on. Its
+// outward side is that of the geometry, not of the material.
 [[nodiscard]] Element nominal_element(const PlannedFeature& feature);
 // +1 when the material's outward normal is the element's, -1 for a hole.
 [[nodiscard]] double material_sign(const PlannedFeature& feature);
 
 // The surface that a feature is of: that of a line is the plane through it that its normal gives.
-[[nodiscard]] Element planned_surface(const PlannedFeature& planned);
+[[nodiscard]] NominalSurface planned_surface(const PlannedFeature& planned);
 
 }  // namespace frustum::metrology

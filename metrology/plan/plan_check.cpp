@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/spelling.hpp"
+#include "core/spline_surface.hpp"
 #include "metrology/fit/element.hpp"
 #include "metrology/plan/datum_precedence.hpp"
 #include "metrology/plan/strategy.hpp"
@@ -28,6 +29,10 @@ class FeatureCheck {
       : plan_(plan), feature_(plan.features[index]), index_(index), fault_(fault) {}
 
   void run() const {
+    if (feature_.kind == FeatureKind::ruled) {
+      net();
+      return;
+    }
     if (!(feature_.point.cwiseAbs().maxCoeff() <= kFarthest)) {
       wrong("point", fmt::format("must be three numbers of at most {:g} mm", kFarthest));
     }
@@ -57,6 +62,27 @@ class FeatureCheck {
  private:
   void wrong(std::string_view key, std::string message, std::string hint = {}) const {
     fault_(PlanPart::feature, index_, key, std::move(message), std::move(hint));
+  }
+
+  // Nothing of a strategy can be checked where there is no surface.
+  void net() const {
+    const auto& surface = feature_.net.surface;
+    if (surface == nullptr || surface->rows() != 2) {
+      wrong("lower", "a ruled surface needs two curves", "lower and upper: lists of [x, y, z]");
+      return;
+    }
+    for (const Vec3& p : surface->net()) {
+      if (p.cwiseAbs().maxCoeff() <= kFarthest) continue;
+      wrong("lower",
+            fmt::format("control points must be three numbers of at most {:g} mm", kFarthest));
+      return;
+    }
+    if (!surface->has_normals()) {
+      wrong("upper", "the surface between the curves folds, or has no area",
+            "both curves must run the same way, apart from each other");
+      return;
+    }
+    check_strategy(plan_, index_, fault_);
   }
 
   void round_geometry() const {

@@ -54,6 +54,8 @@ const std::vector<Rule>& rules() {
   static const std::vector<FeatureKind> axes{cylinder, cone};
   static const std::vector<FeatureKind> directed{plane, cylinder, cone, line};
   static const std::vector<FeatureKind> any{plane, cylinder, cone, circle, line, sphere, point};
+  static const std::vector<FeatureKind> surfaces{plane, cylinder, cone,  circle,
+                                                 line,  sphere,   point, ruled};
   static const std::vector<Rule> table{
       {K::roundness,
        around,
@@ -120,7 +122,7 @@ const std::vector<Rule>& rules() {
        datum_criterion_key,
        "ls"},
       {K::line_profile,
-       {plane, cylinder, cone, circle, line, sphere},
+       {plane, cylinder, cone, circle, line, sphere, ruled},
        {},
        1,
        1,
@@ -128,8 +130,18 @@ const std::vector<Rule>& rules() {
        1,
        floating_key | frame_key,
        "ls"},
-      {K::surface_profile, any, any, 1, kMany, "one feature or more", 0, floating_key | frame_key,
-       "ls"}};
+      {K::surface_profile, surfaces, surfaces, 1, kMany, "one feature or more", 0,
+       floating_key | frame_key, "ls"},
+      {K::thickness,
+       {ruled},
+       {ruled},
+       2,
+       2,
+       "two features: one side, the other",
+       1,
+       frame_key,
+       "ls"},
+      {K::deviation, {ruled}, {}, 1, 1, kOne, 0, frame_key, "ls"}};
   return table;
 }
 
@@ -347,7 +359,22 @@ class CharacteristicCheck {
             "only radius, diameter and half_angle have a value besides it");
     }
     if (c_.filter) filter(*c_.filter);
+    point_number();
     if (c_.seam) seam(*c_.seam);
+  }
+
+  void point_number() const {
+    if (c_.kind != CharacteristicKind::deviation) {
+      if (c_.point) wrong("point", fmt::format("not for a {}", kind()), "only a deviation has one");
+      return;
+    }
+    const std::size_t count = planned_points(*features_.front()).size();
+    if (c_.point && *c_.point < count) return;
+    wrong("point",
+          c_.point ? fmt::format("'{}' has {} points, there is no point {}",
+                                 features_.front()->name, count, *c_.point)
+                   : "a deviation is that of one point",
+          "the first point is 0");
   }
 
   void seam(const Seam& s) const {

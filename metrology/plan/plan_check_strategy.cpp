@@ -26,7 +26,8 @@ class StrategyCheck {
     if (!has_suitable_strategy()) {
       wrong(fmt::format("this strategy does not suit a {}", name_of(feature_.kind)),
             "plane: rings or grid; line: from, to, points; sphere: points of each circle, or "
-            "sections; circle: sections; others: sections, generatrices or turns");
+            "sections; circle: sections; ruled: heights, from, to, points; others: sections, "
+            "generatrices or turns");
       return;
     }
     std::visit([this](const auto& s) { counts(s); }, feature_.strategy);
@@ -49,6 +50,8 @@ class StrategyCheck {
       case FeatureKind::sphere:
         return is_one_of(std::type_identity<SphereStrategy>{},
                          std::type_identity<SectionStrategy>{});
+      case FeatureKind::ruled:
+        return is_one_of(std::type_identity<SurfaceLineStrategy>{});
       case FeatureKind::point:
       case FeatureKind::circle:
         return is_one_of(std::type_identity<SectionStrategy>{});
@@ -187,6 +190,21 @@ class StrategyCheck {
     }
     if (!std::isfinite(s.start_angle) || !std::isfinite(s.twist)) {
       wrong("start_angle and twist must be finite");
+    }
+  }
+
+  void counts(const SurfaceLineStrategy& s) const {
+    const auto is_share = [](double share) { return share >= 0.0 && share <= 1.0; };
+    if (s.heights.empty() || !std::ranges::all_of(s.heights, is_share)) {
+      wrong("heights must be one or more shares of the height, from 0 to 1");
+    }
+    if (!is_share(s.from) || !is_share(s.to) || !(s.from < s.to)) {
+      wrong(fmt::format("from = {} must be less than to = {}, both from 0 to 1", s.from, s.to));
+    }
+    if (s.points < 2) wrong(fmt::format("at least 2 points on a line, planned are {}", s.points));
+    const std::size_t all = s.heights.size() * static_cast<std::size_t>(std::max(s.points, 0));
+    if (!s.geometric.empty() && s.geometric.size() != all) {
+      wrong(fmt::format("geometric_um has {} values for {} points", s.geometric.size(), all));
     }
   }
 

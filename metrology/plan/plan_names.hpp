@@ -9,12 +9,12 @@
 
 namespace frustum::metrology {
 
-inline constexpr std::array<std::string_view, 7> kFeatureNames{
-    "plane", "cylinder", "cone", "circle", "line", "sphere", "point"};
+inline constexpr std::array<std::string_view, 8> kFeatureNames{
+    "plane", "cylinder", "cone", "circle", "line", "sphere", "point", "ruled"};
 inline constexpr std::array<std::string_view, 2> kSideNames{"outside", "inside"};
 inline constexpr std::array<std::string_view, 2> kCompensationNames{"fitted", "approach"};
 inline constexpr std::array<std::string_view, 2> kAlignmentNames{"datum", "plan"};
-inline constexpr std::array<std::string_view, 23> kCharacteristicNames{
+inline constexpr std::array<std::string_view, 25> kCharacteristicNames{
     "roundness",        "cylindricity",
     "cone_form",        "equivalent_cone_form",
     "flatness",         "straightness",
@@ -26,7 +26,8 @@ inline constexpr std::array<std::string_view, 23> kCharacteristicNames{
     "position",         "coaxiality",
     "symmetry",         "circular_run_out",
     "total_run_out",    "line_profile",
-    "surface_profile"};
+    "surface_profile",  "thickness",
+    "deviation"};
 inline constexpr std::array<std::string_view, 4> kParameterNames{"t", "p", "v", "q"};
 
 }  // namespace frustum::metrology

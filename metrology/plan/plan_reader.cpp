@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/spline_surface.hpp"
 #include "core/toml_document.hpp"
 #include "metrology/plan/inspection_plan.hpp"
 #include "metrology/plan/plan_check.hpp"
@@ -105,7 +106,44 @@ Strategy read_round_strategy(const TomlTable& table) {
   return s;
 }
 
+// Shares of the height and of u; what is left of the material in um.
+SurfaceLineStrategy read_surface_lines(const TomlTable& table) {
+  SurfaceLineStrategy s;
+  s.heights = table.numbers("heights");
+  s.points = count(table, "points");
+  s.from = table.number("from");
+  s.to = table.number("to");
+  s.scan = table.boolean_or("scan", false);
+  if (table.has("geometric_um")) {
+    for (const double um : table.numbers("geometric_um")) s.geometric.push_back(um / kUmPerMm);
+  }
+  return s;
+}
+
+std::vector<Vec3> read_points(const TomlTable& table, std::string_view key) {
+  std::vector<Vec3> points;
+  for (const std::vector<double>& row : table.rows(key, 3)) {
+    points.emplace_back(row[0], row[1], row[2]);
+  }
+  return points;
+}
+
+// Two curves of as many points: v = 0 and v = 1.
+NominalNet read_net(const TomlTable& table) {
+  const std::vector<Vec3> lower = read_points(table, "lower"), upper = read_points(table, "upper");
+  if (!table.is_sound()) return {};
+  if (lower.size() < 2 || lower.size() != upper.size()) {
+    table.fail("upper", "plan-feature"_id,
+               fmt::format("both curves need as many control points, two or more; lower has {}, "
+                           "upper has {}",
+                           lower.size(), upper.size()));
+    return {};
+  }
+  return {std::make_shared<const SplineSurface>(SplineSurface::ruled(lower, upper))};
+}
+
 Strategy read_strategy(const TomlTable& table, FeatureKind kind) {
+  if (kind == FeatureKind::ruled) return read_surface_lines(table);
   if (kind == FeatureKind::line) {
     LineStrategy s{table.length("from").value, table.length("to").value};
     read_spacing(table, "points", s.points, s);
@@ -141,6 +179,11 @@ PlannedFeature read_feature(const TomlTable& table) {
   PlannedFeature f;
   f.name = table.text("name");
   f.kind = static_cast<FeatureKind>(table.choice("kind", words(kFeatureNames)));
+  if (f.kind == FeatureKind::ruled) {
+    f.net = read_net(table);
+    f.strategy = read_strategy(table.table("strategy"), f.kind);
+    return f;
+  }
   f.point = table.vector("point");
   // A sphere needs a pole only to say where its sections lie.
   f.axis =
@@ -255,6 +298,9 @@ PlannedCharacteristic read_characteristic(const TomlTable& table) {
   if (table.has("harmonics")) c.harmonics = count(table, "harmonics");
   c.floating = table.boolean_or("floating", false);
   c.deviation = table.boolean_or("deviation", false);
+  if (table.has("point")) {
+    c.point = static_cast<std::size_t>(table.integer("point", Bound::non_negative));
+  }
   if (const auto seam = table.table_if("seam")) {
     c.seam = Seam{seam->angle("at").value, seam->angle("within", Bound::positive).value};
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/spline_surface.hpp"
 #include "core/units.hpp"
 #include "metrology/plan/inspection_plan.hpp"
 #include "metrology/plan/plan_names.hpp"
@@ -90,6 +91,21 @@ std::string text_of(const SphereStrategy& s) {
       angle(s.twist));
 }
 
+// Deviations in um, to a picometre.
+std::string text_of(const SurfaceLineStrategy& s) {
+  std::string text = fmt::format("{{ heights = [{}], from = {}, to = {}, points = {}{}",
+                                 fmt::join(s.heights, ", "), s.from, s.to, s.points,
+                                 s.scan ? ", scan = true" : "");
+  if (!s.geometric.empty()) {
+    std::vector<double> um;
+    for (const double mm : s.geometric) {
+      um.push_back(written_in(mm, 1.0 / kUmPerMm).value_or(mm * kUmPerMm));
+    }
+    text += fmt::format(", geometric_um = [{}]", fmt::join(um, ", "));
+  }
+  return text + " }";
+}
+
 std::string text_of(const std::monostate&) { return {}; }
 std::string text_of(const AxialExtent& e) {
   return fmt::format("{{ from = {}, to = {} }}", e.from, e.to);
@@ -108,7 +124,18 @@ constexpr std::array<std::string_view, kFeatureNames.size()> kAxisMeaning{
     "normal of the circle's plane",
     "along the line",
     "toward the pole",
-    "outward normal"};
+    "outward normal",
+    ""};
+
+// One curve of a ruled surface: its control points.
+std::string rows(const NominalNet& net, std::size_t row) {
+  std::string text = "[";
+  const std::size_t columns = net.surface->columns();
+  for (std::size_t i = 0; i < columns; ++i) {
+    text += (i == 0 ? "" : ", ") + vector(net.surface->net()[row * columns + i]);
+  }
+  return text + "]";
+}
 
 std::string text_of(const PlannedFeature& f) {
   std::string out = "\n[[feature]]\n";
@@ -119,6 +146,12 @@ std::string text_of(const PlannedFeature& f) {
   };
   line("name", toml_text(f.name));
   line("kind", toml_text(name_of(f.kind)));
+  if (f.kind == FeatureKind::ruled) {
+    line("lower", rows(f.net, 0));
+    line("upper", rows(f.net, 1));
+    line("strategy", std::visit([](const auto& s) { return text_of(s); }, f.strategy));
+    return out;
+  }
   line("point", vector(f.point));
   line("axis", vector(f.axis), kAxisMeaning.at(static_cast<std::size_t>(f.kind)));
   if (is_round(f.kind) && f.kind != FeatureKind::cone) {
@@ -223,6 +256,7 @@ std::string text_of_evaluation(const PlannedCharacteristic& c) {
   if (c.harmonics > 0) out += fmt::format("harmonics = {}\n", c.harmonics);
   if (c.floating) out += "floating = true\n";
   if (c.deviation) out += "deviation = true\n";
+  if (c.point) out += fmt::format("point = {}\n", *c.point);
   if (c.seam) {
     out += fmt::format("seam = {{ at = {}, within = {} }}\n", angle(c.seam->at),
                        angle(c.seam->within));

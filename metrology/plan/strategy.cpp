@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/spline_surface.hpp"
 #include "metrology/plan/nominal.hpp"
 
 namespace frustum::metrology {
@@ -107,6 +108,17 @@ class PointMaker {
     }
     return std::move(points_);
   }
+  std::vector<PlannedPoint> operator()(const SurfaceLineStrategy& s) {
+    scanned_ = s.scan;
+    for (std::size_t line = 0; line < s.heights.size(); ++line) {
+      for (int i = 0; i < s.points; ++i) {
+        const double u = s.from + (s.to - s.from) * i / (s.points - 1);
+        const SplinePoint p = feature_.net.surface->at(u, s.heights[line]);
+        add(p.r, p.normal(), line);
+      }
+    }
+    return std::move(points_);
+  }
   std::vector<PlannedPoint> operator()(const LineStrategy& s) {
     scanned_ = s.scan;
     const Vec3 across = feature_.normal - feature_.normal.dot(axis_.vec()) * axis_.vec();
@@ -185,6 +197,9 @@ std::size_t section_count(const PlannedFeature& feature) {
     return static_cast<std::size_t>(s->generatrices);
   }
   if (const auto* s = std::get_if<SphereStrategy>(&feature.strategy)) return s->points.size();
+  if (const auto* s = std::get_if<SurfaceLineStrategy>(&feature.strategy)) {
+    return s->heights.size();
+  }
   return 1;
 }
 
@@ -242,6 +257,9 @@ std::size_t nearest_section(const PlannedFeature& feature, const Vec3& point) {
   };
   if (const auto* s = std::get_if<SectionStrategy>(&feature.strategy)) {
     return nearest(s->sections, along);
+  }
+  if (const auto* s = std::get_if<SurfaceLineStrategy>(&feature.strategy)) {
+    return nearest(s->heights, feature.net.surface->nearest(point).v);
   }
   if (const auto* s = std::get_if<RingStrategy>(&feature.strategy)) {
     return nearest(s->rings, (w - along * axis.vec()).norm());

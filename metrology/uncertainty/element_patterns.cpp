@@ -4,6 +4,7 @@
 
 #include "core/linear_algebra.hpp"
 #include "metrology/plan/nominal.hpp"
+#include "metrology/plan/strategy.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -78,11 +79,33 @@ Eigen::MatrixXd motions_of_line(const FittedFeature& feature) {
   return motions;
 }
 
+// Nothing is fitted to a ruled surface, but characteristics take means of its lines, and lay all of
+// it into place.
+Eigen::MatrixXd motions_of_lines(const FittedFeature& feature) {
+  const auto lines = static_cast<Eigen::Index>(section_count(*feature.planned));
+  Eigen::MatrixXd motions =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(feature.points.size()), 6 + lines);
+  Vec3 centre = Vec3::Zero();
+  for (const MeasuredPoint& p : feature.points) {
+    centre += p.point / static_cast<double>(feature.points.size());
+  }
+  for (Eigen::Index i = 0; i < motions.rows(); ++i) {
+    const MeasuredPoint& p = feature.points[static_cast<std::size_t>(i)];
+    motions.row(i).head<3>() = p.normal;
+    motions.row(i).segment<3>(3) = (p.point - centre).cross(p.normal);
+    motions(i, 6 + static_cast<Eigen::Index>(p.section)) = 1.0;
+  }
+  return motions;
+}
+
 }  // namespace
 
 Eigen::MatrixXd element_patterns(const FittedFeature& feature) {
   if (feature.planned->kind == FeatureKind::line) {
     return orthonormal_columns(motions_of_line(feature));
+  }
+  if (feature.planned->kind == FeatureKind::ruled) {
+    return orthonormal_columns(motions_of_lines(feature));
   }
   std::vector<ElementChange> changes = changes_of(feature.element);
   // One touch does not turn its plane.

@@ -63,7 +63,8 @@ Eigen::VectorXd parts_of(const CharacteristicResult& c) {
 // A profile or straightness of several features tolerances all of them.
 bool is_toleranced(const PlannedCharacteristic& planned, const std::string& feature) {
   if (planned.kind != CharacteristicKind::surface_profile &&
-      planned.kind != CharacteristicKind::straightness) {
+      planned.kind != CharacteristicKind::straightness &&
+      planned.kind != CharacteristicKind::thickness) {
     return planned.features.front() == feature;
   }
   const auto& all = planned.features;
@@ -155,7 +156,8 @@ bool is_form(CharacteristicKind kind) {
 bool is_seen_in_frame(const PlannedCharacteristic& c) {
   using enum CharacteristicKind;
   constexpr std::array kSizes{radius, diameter, half_angle};
-  constexpr std::array kInFrame{line_distance, line_angle, line_profile, surface_profile, position};
+  constexpr std::array kInFrame{line_distance,   line_angle, line_profile,
+                                surface_profile, position,   thickness};
   if (std::find(kSizes.begin(), kSizes.end(), c.kind) != kSizes.end()) return false;
   return c.features.size() < 2 ||
          std::find(kInFrame.begin(), kInFrame.end(), c.kind) != kInFrame.end();
@@ -392,6 +394,48 @@ Measured asked_in(Way way, const InspectionPlan& plan, std::span<const FittedFea
   return some;
 }
 
+// Of the noise of single points of ruled features what their patterns do not hold: (1 - P) of the
+// points, where P projects on the patterns. Deviations of points answer to it, means and places do
+// not.
+class OwnNoise {
+ public:
+  explicit OwnNoise(std::span<const FittedFeature> features) : features_(features) {}
+
+  struct Rest {
+    std::size_t first = 0;  // number of the first error, counted from those of patterns and field
+    Eigen::VectorXd vector{};
+  };
+  [[nodiscard]] Rest beside_patterns(const PlannedCharacteristic& planned) {
+    std::size_t first = 0;
+    for (const FittedFeature& feature : features_) {
+      if (feature.planned->kind != FeatureKind::ruled) continue;
+      if (feature.planned->name != planned.features.front()) {
+        first += feature.points.size();
+        continue;
+      }
+      auto [known, is_new] = patterns_.try_emplace(&feature);
+      if (is_new) known->second = element_patterns(feature);
+      const Eigen::MatrixXd& patterns = known->second;
+      const auto point = static_cast<Eigen::Index>(planned.point.value_or(0));
+      Eigen::VectorXd vector = -patterns * patterns.row(point).transpose();
+      vector[point] += 1.0;
+      return {first, std::move(vector)};
+    }
+    return {};
+  }
+  [[nodiscard]] std::size_t count() const {
+    std::size_t points = 0;
+    for (const FittedFeature& feature : features_) {
+      if (feature.planned->kind == FeatureKind::ruled) points += feature.points.size();
+    }
+    return points;
+  }
+
+ private:
+  std::span<const FittedFeature> features_;
+  std::map<const FittedFeature*, Eigen::MatrixXd> patterns_{};
+};
+
 }  // namespace
 
 bool is_coverage_proven(const InspectionPlan& plan, const PlannedCharacteristic& characteristic) {
@@ -419,13 +463,24 @@ Result<LinearUncertainty> linear_uncertainty(const InspectionPlan& plan,
     found[way] = std::move(*drawn);
   }
   LinearUncertainty out;
+  OwnNoise own(features);
   const Responses& responses = answered->responses;
   std::vector<Eigen::Triplet<double>> answers;
   std::map<Way, std::size_t> next;
   for (std::size_t c = 0; c < plan.characteristics.size(); ++c) {
     const Way way = way_of(plan, plan.characteristics[c]);
     const std::size_t place = next[way]++;
-    const Uncertain& uncertain = found[way][place];
+    const PlannedCharacteristic& planned = plan.characteristics[c];
+    Uncertain uncertain = found[way][place];
+    if (planned.kind == CharacteristicKind::deviation) {
+      const auto rest = own.beside_patterns(planned);
+      uncertain = either_way(std::hypot(uncertain.standard, u.probing * rest.vector.norm()));
+      for (Eigen::Index j = 0; j < rest.vector.size(); ++j) {
+        answers.emplace_back(static_cast<int>(c),
+                             static_cast<int>(answered->errors + rest.first) + static_cast<int>(j),
+                             u.probing * rest.vector[j]);
+      }
+    }
     out.standard.push_back(uncertain.standard);
     out.bounds.push_back(uncertain.bounds);
     out.is_proven.push_back(is_coverage_proven(plan, plan.characteristics[c]));
@@ -435,7 +490,7 @@ Result<LinearUncertainty> linear_uncertainty(const InspectionPlan& plan,
     }
   }
   out.answers.resize(static_cast<Eigen::Index>(plan.characteristics.size()),
-                     static_cast<Eigen::Index>(answered->errors));
+                     static_cast<Eigen::Index>(answered->errors + own.count()));
   out.answers.setFromTriplets(answers.begin(), answers.end());
   return out;
 }

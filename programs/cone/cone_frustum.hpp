@@ -18,16 +18,11 @@
 
 #include "core/units.hpp"
 #include "kinematics/model/machine.hpp"
+#include "programs/milling/posed_program.hpp"
 #include "programs/test_piece.hpp"
 
 namespace frustum::programs {
 
-// How the NC program states the tool's pose.
-enum class ProgramForm {
-  vector,  // G43.5: tip and tool vector; any machine
-  angles,  // G43.4: tip and rotary angles of one machine
-  axes,    // axis positions of one machine, no tool-centre-point control
-};
 // NAS 979 as printed, or the tenth of it that machine builders accept by.
 enum class ConeLimits { nas979, tenth };
 

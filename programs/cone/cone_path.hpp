@@ -2,26 +2,12 @@
 // Units: mm; frame: program coordinates (table directions, origin in the circle's centre).
 #pragma once
 
-#include <string>
 #include <vector>
 
-#include "kinematics/path/tool_path.hpp"
 #include "programs/cone/cone_frustum.hpp"
+#include "programs/milling/posed_program.hpp"
 
 namespace frustum::programs {
-
-struct PathMove {
-  kinematics::ToolPose pose{};
-  bool rapid = false;
-};
-// Moves of one operation, from clear of the part to clear of the part.
-struct PathOperation {
-  std::string name{};
-  OperationKind kind = OperationKind::other;
-  std::vector<PathMove> lead_in{};   // approach
-  std::vector<PathMove> cut{};       // what the operation is named after
-  std::vector<PathMove> lead_out{};  // departure
-};
 
 [[nodiscard]] std::vector<PathOperation> cone_path(const ConeFrustum& cone,
                                                    const ConeGeometry& shape);

@@ -182,6 +182,14 @@ Result<ContourGeometry> geometry(const ContourPiece& piece) {
     return refuse("piece-feed"_id, "feed",
                   fmt::format("the feed must be above 0 mm/min, is {:g}", piece.feed), "");
   }
+  if (!(piece.spindle_speed >= 1.0 && piece.spindle_speed <= 1e6)) {
+    return refuse("out-of-range"_id, "speed", fmt::format("{:g} 1/min", piece.spindle_speed),
+                  "the spindle must turn: 1 to 1000000");
+  }
+  if (!(piece.tool_length.value >= 1.0 && piece.tool_length.value <= 5000.0)) {
+    return refuse("out-of-range"_id, "tool-length", fmt::format("{:g} mm", piece.tool_length.value),
+                  "it must be between 1 and 5000 mm");
+  }
   ContourGeometry shape;
   shape.cutter_radius = size / 16.0;
   shape.circle_radius = 0.5 * 0.5625 * size;

@@ -43,6 +43,15 @@ Json feature_json(const metrology::MeasuredFeature& feature) {
   json["form"] = {{"value_um", json_number(feature.form * kUmPerMm)},
                   {"rms_um", json_number(feature.rms * kUmPerMm)}};
   json["compensation_difference_um"] = json_number(feature.compensation_difference * kUmPerMm);
+  // Of what is compared with the plan itself, each point's.
+  if (feature.kind != "ruled") return json;
+  json["deviations_um"] = Json::array();
+  for (const auto& p : feature.points) {
+    json["deviations_um"].push_back(json_number(p.deviation * kUmPerMm));
+  }
+  for (const double left : feature.geometric) {
+    json["geometric_um"].push_back(json_number(left * kUmPerMm));
+  }
   return json;
 }
 
@@ -72,6 +81,7 @@ Json characteristic_json(const metrology::CharacteristicResult& characteristic) 
   if (!characteristic.frame.empty()) json["frame"] = characteristic.frame;
   if (characteristic.floating) json["floating"] = true;
   json["value"] = json_number(characteristic.value);
+  if (characteristic.geometric) json["geometric"] = json_number(*characteristic.geometric);
   json["unit"] = characteristic.unit;
   json["tolerance"] = json_number(characteristic.tolerance);
   json["expanded_uncertainty"] = json_number(characteristic.expanded_uncertainty);

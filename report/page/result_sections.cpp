@@ -137,6 +137,9 @@ std::string characteristics_html(const RunReport& report) {
       all.begin(), all.end(), [](const Characteristic& c) { return !nominal_text(c).empty(); });
   const bool is_unstated = has_no_uncertainty(report.measurement);
   std::vector<std::string> headings{"Characteristic", ">Value"};
+  const bool geometric =
+      std::ranges::any_of(all, [](const Characteristic& c) { return c.geometric.has_value(); });
+  if (geometric) headings.emplace_back(">Geometric");
   if (nominals) headings.emplace_back(">Nominal");
   const bool intervals = std::any_of(
       all.begin(), all.end(), [](const Characteristic& c) { return c.interval.has_value(); });
@@ -156,6 +159,9 @@ std::string characteristics_html(const RunReport& report) {
                                                "</span>",
                                                tolerance_symbol(c.kind), html_text(c.name), kind),
                                    value_cell(c)};
+    if (geometric) {
+      cells.push_back(c.geometric ? with_unit(value_text(*c.geometric, c.unit), c.unit) : "");
+    }
     if (nominals) {
       cells.push_back(nominal_text(c).empty() ? "" : with_unit(nominal_text(c), c.unit));
     }
@@ -174,6 +180,11 @@ std::string characteristics_html(const RunReport& report) {
   notes +=
       "Used: share of the tolerance taken by the value, or by its distance from the nominal where "
       "there is one.";
+  if (geometric) {
+    notes +=
+        " Geometric: what the way of milling leaves where the machine makes no error; the value "
+        "holds it.";
+  }
   std::string warning;
   if (is_unknown) {
     warning =

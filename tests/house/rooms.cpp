@@ -19,12 +19,12 @@ const std::map<std::string, Room>& rooms() {
       {"lint", {4}},
       {"cutter", {4, {"body", "sweep", "search"}}},
       {"stock", {5, {"solid", "dexel", "mesh", "collision", "proof", "polyhedral"}}},
-      {"programs", {6, {"cone", "step", "contour", "motion"}}},
+      {"programs", {6, {"milling", "cone", "step", "contour", "s_piece", "surface", "motion"}}},
       {"report", {6, {"html", "chart", "picture", "page", "exchange", "sheet"}}},
       {"trials", {7, {"population"}}},
       {"calibration", {8, {"identify", "design", "compensate"}}},
       {"studies", {8, {"laws", "statistics", "engine", "samples", "answers"}}},
-      {"app", {9, {"job", "study", "dynamics", "view", "motion", "command"}}},
+      {"app", {9, {"job", "study", "dynamics", "benchmark", "view", "motion", "command"}}},
   };
   return kRooms;
 }

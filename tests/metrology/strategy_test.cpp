@@ -138,7 +138,7 @@ TEST(Strategy, NamesWhatIsImpossible) {
       complaint(circle, SpiralStrategy{}),
       "error: feature[1].strategy: this strategy does not suit a circle (hint: plane: rings or "
       "grid; line: from, to, points; sphere: points of each circle, or sections; circle: "
-      "sections; others: sections, generatrices or turns)");
+      "sections; ruled: heights, from, to, points; others: sections, generatrices or turns)");
   EXPECT_EQ(complaint(cylinder, SectionStrategy{{0.0, 1.0}, 12, 0.0, 1.0, 0.5}),
             "error: feature[1].strategy: points_per_section and pitch exclude each other");
   EXPECT_EQ(complaint(cylinder, GeneratrixStrategy{2, 0.0, 0.0, 5, 0.0, 1.0}),

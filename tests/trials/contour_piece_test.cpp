@@ -147,6 +147,12 @@ TEST(ContourPiece, RefusesWhatCannotBeMade) {
   piece = {};
   piece.feed = 0.0;
   EXPECT_EQ(programs::contour_piece(piece, machine).error().front().id, "piece-feed"_id);
+  piece = {};
+  piece.spindle_speed = 0.0;
+  EXPECT_EQ(programs::contour_piece(piece, machine).error().front().key, "speed");
+  piece = {};
+  piece.tool_length = {0.0};
+  EXPECT_EQ(programs::contour_piece(piece, machine).error().front().key, "tool-length");
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ TEST(FloatingProfile, EndsAtAMinimumOfWhatThePointsTell) {
   };
   const Pose lies = measured::turned(Vec3(1, 2, 0).normalized(), 2e-3, Vec3(0.1, 0.2, 1.0));
   const FittedFeature found = feature(pin, lies, lobes);
-  const Element planned = Cylinder{Vec3::Zero(), UnitVec3::z(), 10.0};
+  const NominalSurface planned = Element(Cylinder{Vec3::Zero(), UnitVec3::z(), 10.0});
   std::vector<PointOnElement> points;
   for (const Vec3& p : found.all_points()) points.push_back({p, &planned});
   const auto fit = best_fit(points);
@@ -99,8 +99,9 @@ TEST(FloatingProfile, Fault2_60_TheEquatorOfABallSettlesAndIsRefused) {
       points.emplace_back(30.01 + rho * std::cos(a), 30.02 + rho * std::sin(a), 10.0);
     }
     const Element sphere = Sphere{{30, 30, 10}, 8.0};
+    const NominalSurface surface = sphere;
     std::vector<PointOnElement> on_it;
-    for (const Vec3& p : points) on_it.push_back({p, &sphere});
+    for (const Vec3& p : points) on_it.push_back({p, &surface});
     const auto fit = best_fit(on_it);
     ASSERT_TRUE(fit) << z;
     EXPECT_FALSE(fit->is_told[2]);

@@ -1,0 +1,191 @@
+// frustum benchmark: makes the machines of the open blind benchmark, scores submissions, verifies.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/benchmark/benchmark_baseline.hpp"
+#include "app/benchmark/benchmark_make.hpp"
+#include "app/benchmark/benchmark_score.hpp"
+#include "app/benchmark/benchmark_verify.hpp"
+#include "app/command/command_line.hpp"
+#include "app/command/commands.hpp"
+#include "app/view/console.hpp"
+#include "core/file_set.hpp"
+#include "core/whole_file.hpp"
+
+namespace frustum::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+struct BenchmarkOptions : AnswerOptions {
+  std::string folder{}, submission{}, keys{}, method{};
+  std::vector<std::string> only{};
+};
+
+// The commitments that are there already, and those of what was made.
+std::string commitments_json(const fs::path& file, const std::map<std::string, std::string>& made) {
+  nlohmann::json all = nlohmann::json::object();
+  if (const auto text = read_whole_file(file)) {
+    const auto before = nlohmann::json::parse(*text, nullptr, false);
+    if (before.is_object()) all = before;
+  }
+  for (const auto& [id, commitment] : made) all[id] = commitment;
+  return all.dump(2) + "\n";
+}
+
+int make(const BenchmarkOptions& options) {
+  const auto keys = read_keys(options.keys);
+  if (!keys) return refuse(keys.error(), options);
+  for (const std::string& id : options.only) {
+    if (std::ranges::find(*keys, id, &BenchmarkKey::id) == keys->end()) {
+      return refuse(error("benchmark-keys"_id, fmt::format("{} has no key of {}", options.keys, id),
+                          "add a line: m01 <32 hexadecimal digits>"),
+                    options);
+    }
+  }
+  BenchmarkFiles files;
+  std::map<std::string, std::string> commitments;
+  for (const BenchmarkKey& key : *keys) {
+    if (!options.only.empty() && std::ranges::find(options.only, key.id) == options.only.end()) {
+      continue;
+    }
+    const auto entry = std::ranges::find(benchmark_entries(), key.id, &BenchmarkEntry::id);
+    auto made = with_progress(options, key.id.c_str(),
+                              [&](report::Progress&) { return benchmark_files(*entry, key.key); });
+    if (!made) return refuse(made.error(), options);
+    commitments[key.id] = commitment_of(made->at("answers/" + key.id + ".json"), key.key);
+    files.merge(*made);
+  }
+  files["commitments.json"] =
+      commitments_json(fs::path(options.folder) / "commitments.json", commitments);
+  std::vector<std::string> names;
+  for (const auto& [name, bytes] : files) names.push_back(name);
+  auto set = FileSet::open(options.folder, names);
+  if (!set) return refuse(set.error(), options);
+  for (auto& [name, bytes] : files) static_cast<void>(set->add(name, std::move(bytes)));
+  if (const auto written = set->write(); !written) return refuse(written.error(), options);
+  if (options.json) {
+    std::cout << ordered_json{{"schema", "frustum/benchmark/1"},
+                              {"files", names},
+                              {"commitments", commitments}}
+                     .dump(2)
+              << '\n';
+  } else if (!options.quiet) {
+    for (const auto& [id, commitment] : commitments) std::cout << id << ' ' << commitment << '\n';
+  }
+  return kDone;
+}
+
+int score(const BenchmarkOptions& options) {
+  const auto scores = score_submission(options.folder, options.submission);
+  if (!scores) return refuse(scores.error(), options);
+  for (const MachineScore& each : *scores) print(std::cerr, each.notes);
+  std::cout << (options.json ? score_json(*scores) : options.quiet ? "" : score_text(*scores));
+  return kDone;
+}
+
+int verify(const BenchmarkOptions& options) {
+  const auto machines = verify_benchmark(options.folder, options.only);
+  if (!machines) return refuse(machines.error(), options);
+  bool all = true;
+  ordered_json json{{"schema", "frustum/benchmark/1"}, {"machines", ordered_json::array()}};
+  for (const VerifiedMachine& machine : *machines) {
+    all = all && machine.holds();
+    json["machines"].push_back({{"id", machine.id},
+                                {"commitment_holds", machine.commitment_holds},
+                                {"differing", machine.differing},
+                                {"holds", machine.holds()}});
+    if (options.json || options.quiet) continue;
+    std::cout << fmt::format(
+        "{}: commitment {}, {}\n", machine.id, machine.commitment_holds ? "holds" : "BROKEN",
+        machine.differing.empty()
+            ? "all files as the key makes them"
+            : fmt::format("other than the key makes: {}", fmt::join(machine.differing, ", ")));
+  }
+  if (options.json) std::cout << json.dump(2) << '\n';
+  return all ? kDone : kOutOfTolerance;
+}
+
+// Our own predictions of the machines named, or of all that are there.
+int baseline(const BenchmarkOptions& options) {
+  BenchmarkFiles files;
+  for (const BenchmarkEntry& entry : benchmark_entries()) {
+    std::error_code failure;
+    if (!options.only.empty() && std::ranges::find(options.only, entry.id) == options.only.end()) {
+      continue;
+    }
+    if (!fs::is_directory(fs::path(options.folder) / "machines" / entry.id, failure)) continue;
+    auto made = with_progress(options, entry.id.c_str(), [&](report::Progress&) {
+      return baseline_of(options.folder, entry.id, options.method);
+    });
+    if (!made) return refuse(made.error(), options);
+    files[entry.id + "/predictions.csv"] = std::move(made->predictions);
+    files[entry.id + "/errors.csv"] = std::move(made->errors);
+  }
+  if (files.empty()) {
+    return refuse(
+        error("benchmark-machine"_id, fmt::format("{} has none of these machines", options.folder),
+              "machines/mNN/ of the benchmark's folder"),
+        options);
+  }
+  std::vector<std::string> names;
+  for (const auto& [name, bytes] : files) names.push_back(name);
+  auto set = FileSet::open(options.submission, names);
+  if (!set) return refuse(set.error(), options);
+  for (auto& [name, bytes] : files) static_cast<void>(set->add(name, std::move(bytes)));
+  if (const auto written = set->write(); !written) return refuse(written.error(), options);
+  return kDone;
+}
+
+}  // namespace
+
+void add_benchmark(Command& program) {
+  Command group = program.command(
+      "benchmark", "The open blind benchmark: make machines, score predictions, verify reveals");
+  group.needs_a_command();
+  auto m = std::make_shared<BenchmarkOptions>();
+  Command making = group.command("make", "Make machines by their keys");
+  making.option("--keys", m->keys, "File with lines: m01 <32 hexadecimal digits>").required();
+  making.option("--out", m->folder, "Folder of the benchmark").required();
+  making.option("--only", m->only, "Machines, separated by commas (all that have keys)")
+      .separated_by(',');
+  add_answer_options(making, *m);
+  making.computes([m] { return make(*m); });
+  auto s = std::make_shared<BenchmarkOptions>();
+  Command scoring = group.command("score", "Score a submission against answers");
+  scoring.option("folder", s->folder, "Folder of the benchmark, with answers/ and prior/")
+      .required();
+  scoring.option("submission", s->submission, "Folder with mNN/predictions.csv and errors.csv")
+      .required();
+  add_answer_options(scoring, *s);
+  scoring.runs([s] { return score(*s); });
+  auto b = std::make_shared<BenchmarkOptions>();
+  Command baselines = group.command(
+      "baseline", "Our own predictions: the laws alone, or with what was measured of some data");
+  baselines.option("folder", b->folder, "Folder of the benchmark").required();
+  baselines.option("--data", b->method, "prior: the laws alone; cone, steps, s-piece, motion, all")
+      .one_of({kBaselines.begin(), kBaselines.end()})
+      .required();
+  baselines.option("--out", b->submission, "Folder of the submission").required();
+  baselines.option("--only", b->only, "Machines, separated by commas (all that are there)")
+      .separated_by(',');
+  add_answer_options(baselines, *b);
+  baselines.computes([b] { return baseline(*b); });
+  auto v = std::make_shared<BenchmarkOptions>();
+  Command verifying =
+      group.command("verify", "Check commitments, and make revealed machines again");
+  verifying.option("folder", v->folder, "Folder of the benchmark").required();
+  verifying.option("--only", v->only, "Machines, separated by commas (all with answers)")
+      .separated_by(',');
+  add_answer_options(verifying, *v);
+  verifying.footer("Example: frustum benchmark verify benchmark --only m01");
+  verifying.computes([v] { return verify(*v); });
+}
+
+}  // namespace frustum::app
