@@ -41,7 +41,7 @@ kinematics::Machine machine_with_gain(const std::string& name, char axis, double
   EXPECT_TRUE(machine) << (machine ? "" : to_string(machine.error().front()));
   return *machine;
 }
-kinematics::Machine shipped(const std::string& name) {
+kinematics::Machine shipped_machine(const std::string& name) {
   return *kinematics::Machine::load(std::string(FRUSTUM_SOURCE_DIR) + "/machines/" + name +
                                     ".toml");
 }
@@ -99,6 +99,11 @@ double rms(const Effects& effects) {
 // A surface of deviations is compared as a whole.
 void compare(const programs::TestPiece& piece, const Effects& effects,
              const nlohmann::json& expected, double within, double share, const std::string& name) {
+  // The axis of each machine that reverses 0.2 mm beside a point: what is there depends on where
+  // blocks end, and the fit with it. 0.0303 um are left (docs/verification.md).
+  const auto is_beside_a_jump = [](const std::string& of) {
+    return of == "zx-yac EYY reversal" || of == "iwf-bc EXX reversal";
+  };
   const auto near = [&](double value, const char* key) {
     const double want = expected[key];
     EXPECT_NEAR(value, want, std::max(within, share * std::abs(want))) << name << " " << key;
@@ -107,10 +112,11 @@ void compare(const programs::TestPiece& piece, const Effects& effects,
   near(rms(effects), "rms");
   const Effects free = floating(piece, effects);
   if (expected.contains("floating_max")) {
-    // A point 0.2 mm beside a reversal depends on where blocks end, and the fit with it: 0.0303 um.
-    const double jump = name.ends_with("reversal") ? 0.031 : within;
-    const double want = expected["floating_max"];
-    EXPECT_NEAR(largest(free), want, std::max(jump, share * std::abs(want))) << name;
+    if (is_beside_a_jump(name)) {
+      EXPECT_NEAR(largest(free), expected["floating_max"], 0.031) << name;
+    } else {
+      near(largest(free), "floating_max");
+    }
     near(rms(free), "floating_rms");
   }
   for (const auto& [key, first] : {std::pair{"at_A_15", 49}, {"at_B_15", 147 + 49}}) {
@@ -128,7 +134,7 @@ class SPieceReference : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(SPieceReference, LocationErrorsActAsOnAnIndependentCut) {
-  const kinematics::Machine machine = shipped(GetParam());
+  const kinematics::Machine machine = shipped_machine(GetParam());
   const programs::TestPiece piece = piece_on(machine);
   std::vector<std::string> names;
   for (const auto& [name, of] : expected_["location"].items()) names.push_back(name);
@@ -146,7 +152,7 @@ TEST_P(SPieceReference, LocationErrorsActAsOnAnIndependentCut) {
 }
 
 TEST_P(SPieceReference, AnErrorOfTheWholeCutIsThatOfFirstOrder) {
-  const kinematics::Machine machine = shipped(GetParam());
+  const kinematics::Machine machine = shipped_machine(GetParam());
   const programs::TestPiece piece = piece_on(machine);
   const Effects perfect = deviations(cut(machine, piece));
   const bool is_zx = std::string(GetParam()) == "zx-yac";
@@ -162,14 +168,15 @@ TEST_P(SPieceReference, AnErrorOfTheWholeCutIsThatOfFirstOrder) {
 }
 
 TEST_P(SPieceReference, ReversalActsAsOnAnIndependentCut) {
-  const kinematics::Machine machine = shipped(GetParam());
+  const kinematics::Machine machine = shipped_machine(GetParam());
   const programs::TestPiece piece = piece_on(machine);
   const Effects perfect = deviations(cut(machine, piece));
   for (const auto& [name, of] : expected_["reversal"].items()) {
     const std::string amount = of["amount"];
     const std::string error = name.substr(0, 3) + "=reversal " + amount.substr(0, 2) +
                               (amount.find("urad") == std::string::npos ? "um" : "urad");
-    compare(piece, deviations(cut(machine, piece, error)) - perfect, of, 0.03, 0.0, name);
+    compare(piece, deviations(cut(machine, piece, error)) - perfect, of, 0.03, 0.0,
+            std::string(GetParam()) + " " + name);
   }
 }
 
@@ -182,7 +189,7 @@ TEST_P(SPieceReference, ServoLagActsAsOnAnIndependentCut) {
     const char axis = name.starts_with("tilt") ? tilt[0] : name[0];
     const bool is_equal = name == "equal 50";
     const kinematics::Machine machine =
-        is_file ? shipped(GetParam())
+        is_file ? shipped_machine(GetParam())
                 : machine_with_gain(GetParam(), axis, is_equal ? 50.0 : 47.5, 50.0);
     const programs::TestPiece piece = piece_on(machine);
     const Effects perfect = deviations(cut(machine, piece));
@@ -191,7 +198,7 @@ TEST_P(SPieceReference, ServoLagActsAsOnAnIndependentCut) {
 }
 // How many combinations of the location errors and the tool radius the piece tells.
 TEST_P(SPieceReference, SingularValuesAreThoseOfTheData) {
-  const kinematics::Machine machine = shipped(GetParam());
+  const kinematics::Machine machine = shipped_machine(GetParam());
   const programs::TestPiece piece = piece_on(machine);
   std::vector<std::string> names;
   for (const auto& [name, of] : expected_["location"].items()) names.push_back(name);
@@ -231,7 +238,7 @@ INSTANTIATE_TEST_SUITE_P(Machines, SPieceReference, testing::Values("zx-yac", "i
 
 TEST(SPiece, EachMethodLeavesWhatTheDataSays) {
   const nlohmann::json expected = test_data("s_piece.json")["s_piece"]["nominal_deviation"];
-  const kinematics::Machine machine = shipped("zx-yac");
+  const kinematics::Machine machine = shipped_machine("zx-yac");
   for (std::size_t k = 0; k < programs::kFlankMethodNames.size(); ++k) {
     programs::SPiece wanted;
     wanted.method = static_cast<programs::FlankMethod>(k);
@@ -269,7 +276,7 @@ TEST(SPiece, OfAPerfectMachineLeavesWhatTheMethodLeavesAndNoMore) {
     wanted.orientation = {c.orientation * kRadPerDeg};
     wanted.center = c.center;
     wanted.method = c.method;
-    const kinematics::Machine machine = shipped(c.machine);
+    const kinematics::Machine machine = shipped_machine(c.machine);
     const programs::TestPiece piece = piece_on(machine, wanted);
     const Trial trial = cut(machine, piece);
     EXPECT_TRUE(trial.wrong_cuts.empty());
@@ -288,7 +295,7 @@ TEST(SPiece, OfAPerfectMachineLeavesWhatTheMethodLeavesAndNoMore) {
 // On table machines the flank is blind to machine Z, wherever the rotary axes are.
 TEST(SPiece, LawTheFlankIsBlindToMotionAlongTheTool) {
   for (const char* name : {"zx-yac", "iwf-bc"}) {
-    const kinematics::Machine machine = shipped(name);
+    const kinematics::Machine machine = shipped_machine(name);
     const programs::TestPiece piece = piece_on(machine);
     const Effects perfect = deviations(cut(machine, piece));
     for (const char* error : {"EZZ=linear 10um over -100mm..500mm", "EZZ=reversal 10um",
@@ -301,7 +308,7 @@ TEST(SPiece, LawTheFlankIsBlindToMotionAlongTheTool) {
 
 // The floating profile is that of the whole: a rigid motion of the piece changes nothing.
 TEST(SPiece, CharacteristicsAreThoseOfTheirPoints) {
-  const kinematics::Machine machine = shipped("zx-yac");
+  const kinematics::Machine machine = shipped_machine("zx-yac");
   const programs::TestPiece piece = piece_on(machine);
   const Trial trial = cut(machine, piece, "dy_AY=10um");
   const Effects all = deviations(trial);
@@ -317,7 +324,7 @@ TEST(SPiece, CharacteristicsAreThoseOfTheirPoints) {
 }
 
 TEST(SPiece, RefusesWhatCannotBeMade) {
-  const kinematics::Machine machine = shipped("zx-yac");
+  const kinematics::Machine machine = shipped_machine("zx-yac");
   programs::SPiece wanted;
   wanted.center = Vec3(5000.0, 0.0, 120.0);
   EXPECT_EQ(programs::s_piece(wanted, machine).error().front().id, "axis-over-travel"_id);
