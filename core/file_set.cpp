@@ -224,6 +224,10 @@ FileSet::~FileSet() {
 }
 
 Result<FileSet> FileSet::open(const fs::path& folder, std::vector<std::string> names) {
+  if (folder.empty()) {
+    return error("file-unwritable"_id, "the output folder has no name",
+                 "name one, or . for this one");
+  }
   constexpr int kTries = 10;  // another run may remove or exchange the folder between two steps
   auto place = std::make_unique<Place>();
   place->named = folder;

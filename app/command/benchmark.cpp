@@ -28,14 +28,32 @@ struct BenchmarkOptions : AnswerOptions {
   std::vector<std::string> only{};
 };
 
-// The commitments that are there already, and those of what was made.
-std::string commitments_json(const fs::path& file, const std::map<std::string, std::string>& made) {
+// The commitments that are there already, and those of what was made. What was committed to once
+// stays.
+Result<std::string> commitments_json(const fs::path& file,
+                                     const std::map<std::string, std::string>& made) {
+  const auto refused = [&file](std::string what, std::string hint) {
+    Diagnostic failure = error("benchmark-commitments"_id, std::move(what), std::move(hint));
+    failure.file = file.string();
+    return failure;
+  };
   nlohmann::json all = nlohmann::json::object();
-  if (const auto text = read_whole_file(file)) {
-    const auto before = nlohmann::json::parse(*text, nullptr, false);
-    if (before.is_object()) all = before;
+  if (std::error_code failure; fs::exists(file, failure)) {
+    const auto text = read_whole_file(file);
+    if (!text) return text.error();
+    all = nlohmann::json::parse(*text, nullptr, false);
+    if (!all.is_object()) {
+      return refused("this is no JSON object; nothing was written",
+                     "mend it, or name another --out");
+    }
   }
-  for (const auto& [id, commitment] : made) all[id] = commitment;
+  for (const auto& [id, commitment] : made) {
+    if (const auto before = all.find(id); before != all.end() && *before != commitment) {
+      return refused(fmt::format("{} is committed to other answers; nothing was written", id),
+                     "a machine keeps its key; name another --out for another one");
+    }
+    all[id] = commitment;
+  }
   return all.dump(2) + "\n";
 }
 
@@ -62,8 +80,9 @@ int make(const BenchmarkOptions& options) {
     commitments[key.id] = commitment_of(made->at("answers/" + key.id + ".json"), key.key);
     files.merge(*made);
   }
-  files["commitments.json"] =
-      commitments_json(fs::path(options.folder) / "commitments.json", commitments);
+  auto committed = commitments_json(fs::path(options.folder) / "commitments.json", commitments);
+  if (!committed) return refuse(committed.error(), options);
+  files["commitments.json"] = *std::move(committed);
   std::vector<std::string> names;
   for (const auto& [name, bytes] : files) names.push_back(name);
   auto set = FileSet::open(options.folder, names);

@@ -223,7 +223,39 @@ std::string text_of(const Comparison& c) {
   return text;
 }
 
+// What would be written over what is read, or in a form that holds no deviations.
+Diagnostics unwritable_outputs(const CompareOptions& options) {
+  Diagnostics wrong;
+  for (const auto& [option, file] :
+       {std::pair{"--mesh", options.mesh}, std::pair{"--picture", options.picture}}) {
+    std::error_code missing;
+    if (file.empty()) continue;
+    for (const std::string& read : {options.part, options.nominal, options.plan}) {
+      if (!read.empty() && fs::equivalent(file, read, missing)) {
+        wrong.push_back(error("output-overwrites-input"_id,
+                              fmt::format("{} {} would overwrite what is read", option, file),
+                              "choose another file"));
+      }
+    }
+  }
+  const std::string form = fs::path(options.mesh).extension().string();
+  if (!options.mesh.empty() && form != ".ply" && form != ".vtp") {
+    wrong.push_back(error("unknown-extension"_id,
+                          fmt::format("--mesh {} cannot hold deviations", options.mesh),
+                          "name a .ply or .vtp file"));
+  }
+  if (!options.picture.empty() && fs::path(options.picture).extension() != ".png") {
+    wrong.push_back(error("unknown-extension"_id,
+                          fmt::format("--picture {} is no .png file", options.picture),
+                          "pictures are written as PNG"));
+  }
+  return wrong;
+}
+
 int compare_meshes(const CompareOptions& options, const report::PictureOptions& picture) {
+  if (const auto wrong = unwritable_outputs(options); !wrong.empty()) {
+    return refuse(wrong, options);
+  }
   if ((options.align == "datum") == options.plan.empty()) {
     return refuse(error("conflicting-options"_id, "--plan goes with --align datum",
                         "the plan's datum system says how the part lies"),

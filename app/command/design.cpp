@@ -181,8 +181,32 @@ std::vector<std::string> taken_as_zero(const kinematics::Machine& machine,
   return names;
 }
 
+// What only a choice among step patterns takes; a study says these itself.
+Diagnostics without_study(const DesignOptions& o) {
+  const DesignOptions usual;
+  Diagnostics unused;
+  const auto note = [&](const char* option, bool given) {
+    if (!given) return;
+    unused.push_back(error("conflicting-options"_id,
+                           fmt::format("{} does not go with --study", option),
+                           "leave it out: the study says which machine, unknowns and tests"));
+  };
+  note("MACHINE", !o.machine.empty());
+  note("--patterns", !o.patterns.empty());
+  note("--unknown", !o.unknowns.empty());
+  note("--known", !o.known.empty());
+  note("--e0", o.e0 != usual.e0);
+  note("--l-per-um", o.l_per_um != usual.l_per_um);
+  note("--center", !o.center.empty());
+  note("--raise", o.raise != usual.raise);
+  note("--tool-diameter", o.tool_diameter.has_value());
+  note("--tool-length", o.tool_length.has_value());
+  return unused;
+}
+
 int show_design(const DesignOptions& o) {
   if (!o.study.empty()) {
+    if (const auto unused = without_study(o); !unused.empty()) return refuse(unused, o);
     TestDesignWords words{o, o.study, o.required, o.limits, criterion_of(o)};
     return show_test_design(words);
   }

@@ -7,6 +7,7 @@
 
 #include "app/motion/test_file.hpp"
 #include "calibration/identify/measured_tests.hpp"
+#include "core/units.hpp"
 #include "instruments/cone_test.hpp"
 #include "instruments/traces/circle_trace_file.hpp"
 #include "instruments/traces/pose_trace_file.hpp"
@@ -189,7 +190,16 @@ Result<std::optional<StudyMotion>> read_motion(const TomlTable& table, bool plan
                "traces = [\"trace.csv\"]: what frustum motion trace reads");
     return std::optional<StudyMotion>{};
   }
-  entry.noise = table.length_or("noise", {0.0}, Bound::non_negative).value;
+  if (const std::string noise = table.text_or("noise", ""); !noise.empty()) {
+    const auto quantity = parse_quantity(noise);
+    if (!quantity || quantity->kind != UnitKind::length || !(quantity->value > 0.0)) {
+      table.fail(
+          "noise", "wrong-unit"_id, fmt::format("'{}' is no length above 0 with its unit", noise),
+          "a standard deviation, for example noise = \"0.3um\"; without it residuals say it");
+    } else {
+      entry.noise = quantity->value;
+    }
+  }
   entry.ball = table.text_or("ball", "");
   auto test = read_test_file(file);
   if (!test) return test.error();

@@ -66,7 +66,15 @@ Diagnostic unknown_word(const std::string& option, const std::string& word,
                suggestion(word, known));
 }
 
+std::optional<Diagnostic> no_stroke(double stroke) {
+  constexpr double kLongest = 1e3;
+  if (stroke > 0.0 && stroke <= kLongest) return std::nullopt;
+  return error("out-of-range"_id,
+               fmt::format("--stroke {}: expected mm above 0, at most {:g}", stroke, kLongest));
+}
+
 Result<MotionSetup> motion_setup(const MotionWords& words) {
+  if (auto problem = no_stroke(words.stroke)) return *std::move(problem);
   constexpr double kLongest = 1e9;  // mm, as far as axes go
   if (!(words.tool_length >= 0.0 && words.tool_length <= kLongest)) {
     return error("out-of-range"_id,

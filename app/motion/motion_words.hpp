@@ -81,6 +81,8 @@ enum class LinearAxes { moved, held };
 [[nodiscard]] Result<Vec3> place_of(const std::string& text, const std::string& option);
 // Degrees to rad; nothing for an empty text.
 [[nodiscard]] Result<std::optional<std::vector<double>>> angle_list(const std::string& text);
+// Of a stroke that is none.
+[[nodiscard]] std::optional<Diagnostic> no_stroke(double stroke);
 // A word among those that are known.
 [[nodiscard]] Diagnostic unknown_word(const std::string& option, const std::string& word,
                                       const std::vector<std::string>& known);

@@ -29,6 +29,7 @@ Document trace_head(const std::string& test, const TraceWords& words) {
 }
 
 Result<CircleTraceWords> reading_words(const TraceWords& words) {
+  if (auto problem = no_stroke(words.stroke)) return *std::move(problem);
   CircleTraceWords reading{.stroke = words.stroke};
   if (!words.plane.empty()) {
     reading.plane = instruments::plane_named(words.plane);

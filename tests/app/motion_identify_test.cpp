@@ -298,6 +298,13 @@ TEST_F(MotionIdentifySystem, RefusesWhatCannotBeIdentified) {
   EXPECT_EQ(fault_of("s.toml"), "file-unreadable");
   write("s.toml", xy + "nois = \"1um\"\n");
   EXPECT_EQ(fault_of("s.toml"), "unknown-key");
+  for (const char* noise : {"0.2", "\"0.2\"", "\"0um\"", "\"5urad\""}) {
+    write("s.toml", xy + "noise = " + noise + "\n");
+    EXPECT_EQ(run("identify s.toml").exit_code, 2) << noise;
+  }
+  write("s.toml", xy);
+  EXPECT_EQ(run("design --study s.toml --raise 9").exit_code, 2);
+  EXPECT_EQ(run("motion trace XY/trace.csv --stroke nan").exit_code, 2);
   measure("B", "circle --plane XY --center 0,0,150 --machine iwf-bc --noise 0.3um");
   write("s.toml", xy + motion("B"));
   EXPECT_EQ(fault_of("s.toml"), "different-machines");

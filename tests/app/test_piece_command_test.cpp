@@ -141,6 +141,14 @@ TEST_F(TestPieceSystem, CompareTellsDeviationsAndTheShareWithin) {
   const Outcome aligned =
       run("compare moved.obj nominal.obj --tolerance 1um --align best-fit --json");
   EXPECT_EQ(aligned.exit_code, 0) << aligned.err << aligned.out;
+  const std::string scan = read(folder_ / "part.obj");
+  write("part.ply", read(folder_ / "out.ply"));
+  for (const char* output : {"--mesh part.ply", "--mesh out.stl", "--picture part.ply"}) {
+    const Outcome kept = run(std::string("compare part.ply nominal.obj ") + output);
+    EXPECT_EQ(kept.exit_code, 2) << output;
+  }
+  EXPECT_EQ(read(folder_ / "part.ply"), read(folder_ / "out.ply"));
+  EXPECT_EQ(read(folder_ / "part.obj"), scan);
   EXPECT_EQ(run("compare part.obj nominal.step").exit_code, 2);
   EXPECT_EQ(run("compare part.obj nominal.obj --tolerance 5").exit_code, 2);
   EXPECT_EQ(run("compare part.obj nominal.obj --align datum").exit_code, 2);
@@ -166,6 +174,11 @@ TEST_F(TestPieceSystem, ABenchmarkIsMadeAgainBitForBit) {
   EXPECT_LT(std::abs(skill("prior")), 1.0);
   EXPECT_GT(skill("cone"), 0.5);
   EXPECT_GT(skill("motion"), skill("cone"));
+  // What was committed to stays.
+  const std::string committed = read(folder_ / "b/commitments.json");
+  write("other", "m01 ff112233445566778899aabbccddeeff\n");
+  EXPECT_EQ(run("benchmark make --keys other --out b").exit_code, 2);
+  EXPECT_EQ(read(folder_ / "b/commitments.json"), committed);
   // One byte more.
   std::ofstream(folder_ / "b/machines/m01/cone/points.csv", std::ios::app) << "\n";
   const Outcome differs = run("benchmark verify b --json");
@@ -177,6 +190,7 @@ TEST_F(TestPieceSystem, ABenchmarkIsMadeAgainBitForBit) {
 TEST_F(TestPieceSystem, ScoresRefuseRowsWithTheirPlace) {
   write("b/answers/m01.json", R"({"points":{"q1":1.0,"q2":2.0},"poses":{},"errors":{"EX0C":3.0}})");
   write("b/prior/m01.csv", "id,sd\nq1,3\nq2,3\nEX0C,15\n");
+  write("b/machines/m01/laws.csv", "name,unit,mean,sd\nEX0C,um,0,15\n");
   write("s/m01/errors.csv", "name,mean,sd,unit\nEX0C,3,1,um\n");
   const auto scored = [&](const std::string& rows) {
     write("s/m01/predictions.csv", "id,mean_um,sd_um\n" + rows);
@@ -203,6 +217,8 @@ TEST_F(TestPieceSystem, ScoresRefuseRowsWithTheirPlace) {
     EXPECT_EQ(bad.exit_code, 2) << rows;
     EXPECT_NE(bad.err.find(place), std::string::npos) << bad.err;
   }
+  write("s/m01/errors.csv", "name,mean,sd,unit\nEX0C,3,1,urad\n");
+  EXPECT_NE(scored("q1,1,1\n").err.find("errors.csv:2:10"), std::string::npos);
   write("keys", "m99 00112233445566778899aabbccddeeff\n");
   EXPECT_NE(run("benchmark make --keys keys --out c").err.find("keys:1"), std::string::npos);
 }
