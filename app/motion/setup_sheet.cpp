@@ -40,7 +40,7 @@ void add_setup_sheet(MotionAnswer& answer, const SetupSheet& sheet) {
       std::ranges::minmax_element(test.poses, {}, &instruments::TestPose::parameter);
   const programs::BarPass pass = programs::pass_of(machine, test);
   row("capture, deg of " + parameter,
-      fmt::format("{:.4g} to {:.4g}", least->parameter * kDegPerRad, most->parameter * kDegPerRad));
+      fmt::format("{:.6g} to {:.6g}", least->parameter * kDegPerRad, most->parameter * kDegPerRad));
   row("with overshoot, deg", fmt::format("{:g} to {:g}", as_stated(pass.from * kDegPerRad),
                                          as_stated(pass.to * kDegPerRad)));
   constexpr int kLooks = 720;  // of a pass, for the travels that it takes
