@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "programs/piece_ranges.hpp"
 #include "programs/piece_tool.hpp"
 #include "programs/s_piece/s_blank.hpp"
 
@@ -49,37 +50,18 @@ std::vector<Vec3> at_height(const std::array<std::array<double, 2>, 13>& curve, 
   return points;
 }
 
-Diagnostic refuse_s(DiagnosticId id, const char* key, std::string what, std::string hint) {
-  Diagnostic failure = error(id, std::move(what), std::move(hint));
-  failure.key = key;
-  return failure;
-}
-
 // Every number of the piece within what a machine could do: checked before anything is generated.
 std::optional<Diagnostic> check_s(const SPiece& piece) {
-  const struct {
-    const char* key;
-    double value, lowest, highest;
-    const char* unit;
-  } ranges[] = {{"cutter", piece.cutter.value, 1.0, 500.0, "mm"},
-                {"height", piece.height.value, 1.0, 500.0, "mm"},
-                {"overhang", piece.overhang.value, 0.0, 100.0, "mm"},
-                {"tool-length", piece.tool_length.value, 1.0, 5000.0, "mm"},
-                {"orientation", piece.orientation.value * kDegPerRad, -360.0, 360.0, "deg"},
-                {"feed", piece.feed, 1e-3, 1e5, "mm/min"},
-                {"speed", piece.spindle_speed, 1.0, 1e6, "1/min"},
-                {"blocks", static_cast<double>(piece.blocks), 10.0, 1e6, "blocks"}};
-  for (const auto& r : ranges) {
-    if (r.value >= r.lowest && r.value <= r.highest) continue;
-    return refuse_s(
-        "out-of-range"_id, r.key, fmt::format("{:g} {}", r.value, r.unit),
-        fmt::format("it must be between {:g} and {:g} {}", r.lowest, r.highest, r.unit));
-  }
-  if (!(piece.center.allFinite() && piece.center.norm() < 5e4)) {
-    return refuse_s("out-of-range"_id, "center", "the centre is out of any machine's reach",
-                    "x,y,z in mm");
-  }
-  return std::nullopt;
+  const PieceRange ranges[] = {
+      {"cutter", piece.cutter.value, 1.0, 500.0, "mm"},
+      {"height", piece.height.value, 1.0, 500.0, "mm"},
+      {"overhang", piece.overhang.value, 0.0, 100.0, "mm"},
+      {"tool-length", piece.tool_length.value, 1.0, 5000.0, "mm"},
+      {"orientation", piece.orientation.value * kDegPerRad, -360.0, 360.0, "deg"},
+      {"feed", piece.feed, 1e-3, 1e5, "mm/min"},
+      {"speed", piece.spindle_speed, 1.0, 1e6, "1/min"},
+      {"blocks", static_cast<double>(piece.blocks), 10.0, 1e6, "blocks"}};
+  return out_of_range(ranges, piece.center);
 }
 
 // By 180 deg about Z.
@@ -196,9 +178,9 @@ Result<SGeometry> geometry(const SPiece& piece) {
                   points.a.upper.front().z()};
   for (SplineSurface& flank : shape.flanks) {
     if (flank.has_normals()) continue;
-    return refuse_s("flank-folds"_id, "points",
-                    "a flank between its two curves folds, or has no area",
-                    "both curves must run the same way, one above the other");
+    return refused_number("flank-folds"_id, "points",
+                          "a flank between its two curves folds, or has no area",
+                          "both curves must run the same way, one above the other");
   }
   // Normals out of the wall: away from the other flank, whichever way its points run.
   const auto outward = [](const SplineSurface& one, const SplineSurface& other) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "programs/milling/point_milling.hpp"
+#include "programs/piece_ranges.hpp"
 #include "programs/piece_tool.hpp"
 #include "stock/solid/facet_solid.hpp"
 
@@ -19,12 +20,6 @@ using metrology::FeatureKind;
 constexpr double kClearance = 30.0;  // mm along the tool, before and after a pass
 constexpr double kSheetLeft = 0.3;   // mm on the blank
 constexpr std::size_t kSheetFacets = 80;
-
-Diagnostic refuse_surface(DiagnosticId id, const char* key, std::string what, std::string hint) {
-  Diagnostic failure = error(id, std::move(what), std::move(hint));
-  failure.key = key;
-  return failure;
-}
 
 double diameter_of(const SurfacePiece& piece) {
   constexpr double kFlank = 20.0, kBall = 10.0;  // mm
@@ -41,31 +36,19 @@ BallCutter ball_cutter(const SurfacePiece& piece) {
 }
 
 std::optional<Diagnostic> check_surface(const SurfacePiece& piece) {
-  const struct {
-    const char* key;
-    double value, lowest, highest;
-    const char* unit;
-  } ranges[] = {{"cutter", diameter_of(piece), 0.5, 500.0, "mm"},
-                {"cusp", piece.cusp.value * kUmPerMm, 0.01, 1000.0, "um"},
-                {"lead", piece.lead.value * kDegPerRad, 0.0, 80.0, "deg"},
-                {"thickness", piece.thickness.value, 1.0, 500.0, "mm"},
-                {"tool-length", piece.tool_length.value, 1.0, 5000.0, "mm"},
-                {"orientation", piece.orientation.value * kDegPerRad, -360.0, 360.0, "deg"},
-                {"feed", piece.feed, 1e-3, 1e5, "mm/min"},
-                {"speed", piece.spindle_speed, 1.0, 1e6, "1/min"},
-                {"blocks", static_cast<double>(blocks_of(piece)), 2.0, 1e6, "blocks"}};
-  for (const auto& r : ranges) {
-    if (r.value >= r.lowest && r.value <= r.highest) continue;
-    return refuse_surface(
-        "out-of-range"_id, r.key, fmt::format("{:g} {}", r.value, r.unit),
-        fmt::format("it must be between {:g} and {:g} {}", r.lowest, r.highest, r.unit));
-  }
-  if (!(piece.center.allFinite() && piece.center.norm() < 5e4)) {
-    return refuse_surface("out-of-range"_id, "center", "the centre is out of any machine's reach",
-                          "x,y,z in mm");
-  }
+  const PieceRange ranges[] = {
+      {"cutter", diameter_of(piece), 0.5, 500.0, "mm"},
+      {"cusp", piece.cusp.value * kUmPerMm, 0.01, 1000.0, "um"},
+      {"lead", piece.lead.value * kDegPerRad, 0.0, 80.0, "deg"},
+      {"thickness", piece.thickness.value, 1.0, 500.0, "mm"},
+      {"tool-length", piece.tool_length.value, 1.0, 5000.0, "mm"},
+      {"orientation", piece.orientation.value * kDegPerRad, -360.0, 360.0, "deg"},
+      {"feed", piece.feed, 1e-3, 1e5, "mm/min"},
+      {"speed", piece.spindle_speed, 1.0, 1e6, "1/min"},
+      {"blocks", static_cast<double>(blocks_of(piece)), 2.0, 1e6, "blocks"}};
+  if (auto problem = out_of_range(ranges, piece.center)) return problem;
   if (!piece.surface.has_normals()) {
-    return refuse_surface("flank-folds"_id, "net", "the surface folds, or has no area",
+    return refused_number("flank-folds"_id, "net", "the surface folds, or has no area",
                           "rows must follow each other, and run the same way");
   }
   return piece.surface.rows() == 2 ? does_not_fit(piece.surface, flank_cutter(piece))
@@ -218,7 +201,7 @@ Result<TestPiece> surface_piece(const SurfacePiece& piece, const kinematics::Mac
             : ball_passes(piece.surface, ball_cutter(piece), piece.cusp.value);
   constexpr double kMostBlocks = 2e6;
   if (static_cast<double>(passes.size()) * static_cast<double>(blocks_of(piece)) > kMostBlocks) {
-    return refuse_surface("out-of-range"_id, "cusp",
+    return refused_number("out-of-range"_id, "cusp",
                           fmt::format("{} passes of {} blocks", passes.size(), blocks_of(piece)),
                           fmt::format("at most {:g} blocks: choose a larger cusp or cutter, or "
                                       "fewer blocks",
