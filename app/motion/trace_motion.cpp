@@ -122,46 +122,54 @@ Result<MotionAnswer> line_trace(const TraceWords& words) {
   return answer;
 }
 
+// The machine whose axes A and C are calibrated, and where its table stands for that.
+struct Calibration {
+  MotionSetup setup;
+  instruments::TouchPlan plan{};
+};
+Result<Calibration> calibration_of(const TraceWords& words) {
+  MotionWords of_machine;
+  of_machine.machine = words.machine;
+  of_machine.noise = words.noise;
+  auto setup = motion_setup(of_machine);
+  if (!setup) return setup.error();
+  auto plan = instruments::touch_plan(setup->machine);
+  if (!plan) return plan.error();
+  return Calibration{*std::move(setup), *std::move(plan)};
+}
+
 Result<MotionAnswer> touch_trace(const TraceWords& words) {
   if (words.files.size() != 1) {
     return error("file-count"_id, fmt::format("the touches of a calibration are in one file, given "
                                               "are {}",
                                               words.files.size()));
   }
-  MotionWords of_machine;
-  of_machine.machine = words.machine;
-  of_machine.noise = words.noise;
-  const auto setup = motion_setup(of_machine);
-  if (!setup) return setup.error();
-  const auto plan = instruments::touch_plan(setup->machine);
-  if (!plan) return plan.error();
+  const auto calibration = calibration_of(words);
+  if (!calibration) return calibration.error();
+  const auto& [setup, plan] = *calibration;
   const auto readings =
-      instruments::read_touches(words.files.front(), *plan, instruments::TouchProbe{}.ball_radius);
+      instruments::read_touches(words.files.front(), plan, instruments::TouchProbe{}.ball_radius);
   if (!readings) return readings.error();
   MotionAnswer answer{.document = trace_head("touch", words),
-                      .text = fmt::format("Measured touches on {}\n", setup->machine.name())};
-  answer.document["machine"] = setup->machine.name();
+                      .text = fmt::format("Measured touches on {}\n", setup.machine.name())};
+  answer.document["machine"] = setup.machine.name();
   answer.page.title = "Measured touch-trigger calibration of A and C";
-  answer.page.facts = {{"Machine", setup->machine.title()}};
-  const double noise = setup->instrument.noise / 2.0;
+  answer.page.facts = {{"Machine", setup.machine.title()}};
+  const double noise = setup.instrument.noise / 2.0;
   answer.document["noise_um"] = noise * kUmPerMm;
-  add_touch_findings(answer, setup->machine, *plan,
+  add_touch_findings(answer, setup.machine, plan,
                      {.readings = *readings,
-                      .identified = identified_maps(*plan, *readings),
-                      .sd = standard_deviations(*plan, noise)});
+                      .identified = identified_maps(plan, *readings),
+                      .sd = standard_deviations(plan, noise)});
   answer.files.erase("touches.csv");  // is what was given
   return answer;
 }
 
 // R-tests with three balls at the positions of the calibration: maps of A and C.
 Result<MotionAnswer> ball_trace(const TraceWords& words) {
-  MotionWords of_machine;
-  of_machine.machine = words.machine;
-  of_machine.noise = words.noise;
-  const auto setup = motion_setup(of_machine);
-  if (!setup) return setup.error();
-  const auto plan = instruments::touch_plan(setup->machine);
-  if (!plan) return plan.error();
+  const auto calibration = calibration_of(words);
+  if (!calibration) return calibration.error();
+  const auto& [setup, plan] = *calibration;
   std::vector<Vec3> balls;
   std::istringstream in(words.balls);
   for (std::string part; std::getline(in, part, ';');) {
@@ -175,24 +183,24 @@ Result<MotionAnswer> ball_trace(const TraceWords& words) {
   }
   std::vector<std::vector<Vec3>> readings;
   for (std::size_t k = 0; k < balls.size(); ++k) {
-    const auto test = instruments::chase_test(setup->machine, {balls[k], ball_poses(*plan), 0.0});
+    const auto test = instruments::chase_test(setup.machine, {balls[k], ball_poses(plan), 0.0});
     if (!test) return test.error();
-    auto read = instruments::read_pose_trace(words.files[k], setup->machine, test->poses);
+    auto read = instruments::read_pose_trace(words.files[k], setup.machine, test->poses);
     if (!read) return read.error();
     readings.push_back(*std::move(read));
   }
-  auto identified = instruments::maps_of_balls(*plan, balls, readings);
+  auto identified = instruments::maps_of_balls(plan, balls, readings);
   if (!identified) return identified.error();
-  auto sd = instruments::deviations_of_balls(*plan, balls, setup->instrument.noise);
+  auto sd = instruments::deviations_of_balls(plan, balls, setup.instrument.noise);
   if (!sd) return sd.error();
   MotionAnswer answer{
       .document = trace_head("chase", words),
-      .text = fmt::format("R-tests with {} balls on {}\n", balls.size(), setup->machine.name())};
-  answer.document["machine"] = setup->machine.name();
+      .text = fmt::format("R-tests with {} balls on {}\n", balls.size(), setup.machine.name())};
+  answer.document["machine"] = setup.machine.name();
   answer.page.title = "Errors of A and C from R-tests";
-  answer.page.facts = {{"Machine", setup->machine.title()}};
-  answer.document["noise_um"] = setup->instrument.noise * kUmPerMm;
-  add_touch_findings(answer, setup->machine, *plan,
+  answer.page.facts = {{"Machine", setup.machine.title()}};
+  answer.document["noise_um"] = setup.instrument.noise * kUmPerMm;
+  add_touch_findings(answer, setup.machine, plan,
                      {.identified = *std::move(identified), .sd = *std::move(sd)});
   return answer;
 }
