@@ -332,7 +332,7 @@ bool is_at(const AxisPositions& q, const AxisPositions& wanted) {
 TestParameter circle_parameter(const Machine& machine, const CircleTest& circle) {
   const auto [first, second] = axes_of(circle.plane);
   const AxisPositions centre = place_tip(machine, circle.centre, circle.tool_length, circle.held);
-  return {[first, second, centre](const AxisPositions& q) {
+  return {[first = first, second = second, centre](const AxisPositions& q) {
     return std::atan2(q[second] - centre[second], q[first] - centre[first]);
   }};
 }

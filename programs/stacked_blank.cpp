@@ -20,8 +20,8 @@ std::vector<double> directions(const std::vector<const Outline*>& outlines) {
   }
   std::ranges::sort(all);
   constexpr double kSame = 1e-9;  // rad
-  const auto rest = std::ranges::unique(all, [](double a, double b) { return b - a < kSame; });
-  all.erase(rest.begin(), rest.end());
+  const auto are_same = [](double a, double b) { return b - a < kSame; };
+  all.erase(std::unique(all.begin(), all.end(), are_same), all.end());
   return all;
 }
 

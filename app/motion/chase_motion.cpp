@@ -72,10 +72,25 @@ void draw_vectors(MotionAnswer& answer, const std::vector<instruments::TestPose>
   answer.page.tables.push_back(std::move(table));
 }
 
-// The rotary axes go evenly from pose to pose, and the linear ones keep the tip at the ball.
-Result<std::vector<Vec3>> moved_by(const ChaseWords& words, const MotionSetup& setup,
-                                   const instruments::MotionTest& test,
-                                   const std::optional<double>& feed) {
+}  // namespace
+
+Result<instruments::MotionTest> chase_of_words(const ChaseWords& words, const MotionSetup& setup) {
+  const auto ball = place_of(words.ball, "--ball");
+  if (!ball) return ball.error();
+  if (words.at == "maps") {
+    const auto plan = instruments::touch_plan(setup.machine);
+    if (!plan) return plan.error();
+    return instruments::chase_test(setup.machine,
+                                   {*ball, instruments::ball_poses(*plan), setup.tool_length});
+  }
+  const auto poses = pose_list(setup.machine, words.at);
+  if (!poses) return poses.error();
+  return instruments::chase_test(setup.machine, {*ball, *poses, setup.tool_length});
+}
+
+Result<std::vector<Vec3>> chase_deviations(const ChaseWords& words, const MotionSetup& setup,
+                                           const instruments::MotionTest& test,
+                                           const std::optional<double>& feed) {
   instruments::MotionTest run = test;
   std::vector<double> ways{0.0};  // rad
   for (std::size_t i = 1; i < run.poses.size(); ++i) {
@@ -106,22 +121,6 @@ Result<std::vector<Vec3>> moved_by(const ChaseWords& words, const MotionSetup& s
   return deviations_of(words, setup, run, feed, kRadPerDeg, ways);
 }
 
-}  // namespace
-
-Result<instruments::MotionTest> chase_of_words(const ChaseWords& words, const MotionSetup& setup) {
-  const auto ball = place_of(words.ball, "--ball");
-  if (!ball) return ball.error();
-  if (words.at == "maps") {
-    const auto plan = instruments::touch_plan(setup.machine);
-    if (!plan) return plan.error();
-    return instruments::chase_test(setup.machine,
-                                   {*ball, instruments::ball_poses(*plan), setup.tool_length});
-  }
-  const auto poses = pose_list(setup.machine, words.at);
-  if (!poses) return poses.error();
-  return instruments::chase_test(setup.machine, {*ball, *poses, setup.tool_length});
-}
-
 Result<MotionAnswer> chase_answer(const ChaseWords& words) {
   const auto setup = motion_setup(words);
   if (!setup) return setup.error();
@@ -131,7 +130,7 @@ Result<MotionAnswer> chase_answer(const ChaseWords& words) {
   const kinematics::ForwardChain actual(setup->machine, setup->errors, setup->tool_length);
   const auto feed = feed_per_second(words);
   if (!feed) return feed.error();
-  const auto moved = moved_by(words, *setup, *test, *feed);
+  const auto moved = chase_deviations(words, *setup, *test, *feed);
   if (!moved) return moved.error();
   auto exact = instruments::displacements(
       actual, instruments::with_approach(*test, setup->errors).poses, setup->setup);

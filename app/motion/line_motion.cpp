@@ -138,22 +138,17 @@ std::optional<Diagnostics> add_line_program(MotionAnswer& answer, const ProgramW
 }
 
 // Of the motion of an axis across itself: the ranges of the mean of all runs.
-Document straightness_of_axis(const std::vector<double>& targets, const std::vector<Vec3>& means,
-                              AxisLetter axis, MotionAnswer& answer) {
+Document straightness_of_axis(const LineRuns& line, const std::vector<Vec3>& means,
+                              MotionAnswer& answer) {
   Document doc;
-  for (const AxisLetter across : kinematics::kLinearAxes) {
-    if (across == axis) continue;
-    std::vector<double> deviation;
-    for (const Vec3& mean : means) deviation.push_back(mean[static_cast<Eigen::Index>(across)]);
-    const auto found = instruments::straightness_of(targets, deviation);
-    if (!found) continue;
+  for (const auto& [across, found] : straightness_across(line, means)) {
     const std::string name(1, to_char(across));
-    doc[name] = Document{{"least_squares", found->least_squares * kUmPerMm},
-                         {"end_points", found->end_points * kUmPerMm},
-                         {"minimum_zone", found->minimum_zone * kUmPerMm}};
+    doc[name] = Document{{"least_squares", found.least_squares * kUmPerMm},
+                         {"end_points", found.end_points * kUmPerMm},
+                         {"minimum_zone", found.minimum_zone * kUmPerMm}};
     answer.text +=
         fmt::format("straightness in {}: {:.3f} um least squares, {:.3f} um minimum zone\n", name,
-                    found->least_squares * kUmPerMm, found->minimum_zone * kUmPerMm);
+                    found.least_squares * kUmPerMm, found.minimum_zone * kUmPerMm);
   }
   return doc;
 }
@@ -170,47 +165,73 @@ std::optional<Diagnostics> add_positioning(MotionAnswer& answer, const std::vect
   return std::nullopt;
 }
 
-Result<MotionAnswer> line_answer(const LineWords& words) {
-  const auto setup = motion_setup(words);
-  if (!setup) return setup.error();
+Result<LineRuns> line_of_words(const LineWords& words, const MotionSetup& setup) {
   const auto axis = kinematics::axis_named(words.axis);
   if (!axis) return unknown_word("--axis", words.axis, {"X", "Y", "Z"});
   const auto targets = number_list(words.targets, "--targets");
   if (!targets) return targets.error();
-  const auto held = held_axes(setup->machine, words.at, LinearAxes::held);
+  const auto held = held_axes(setup.machine, words.at, LinearAxes::held);
   if (!held) return held.error();
   const instruments::AxisLine line{
-      .axis = *axis, .targets = *targets, .held = *held, .tool_length = setup->tool_length};
-  const auto up = instruments::axis_line(setup->machine, line, RunDirection::up);
+      .axis = *axis, .targets = *targets, .held = *held, .tool_length = setup.tool_length};
+  auto up = instruments::axis_line(setup.machine, line, RunDirection::up);
   if (!up) return up.error();
-  const auto down = instruments::axis_line(setup->machine, line, RunDirection::down);
+  auto down = instruments::axis_line(setup.machine, line, RunDirection::down);
   if (!down) return down.error();
-  const auto feed = feed_per_second(words);
-  if (!feed) return feed.error();
-  const auto moved_up = deviations_of(words, *setup, *up, *feed);
-  if (!moved_up) return moved_up.error();
-  const auto moved_down = deviations_of(words, *setup, *down, *feed);
-  if (!moved_down) return moved_down.error();
-  std::vector<LineTest> runs;
-  for (int run = 0; run < words.runs; ++run) runs.insert(runs.end(), {*up, *down});
-  auto readings = readings_of(words.nc, *setup, runs);
-  if (!readings) return readings.error();
-  Deviations deviations_up(targets->size()), deviations_down(targets->size());
-  std::vector<Vec3> means(targets->size(), Vec3::Zero());
-  for (std::size_t run = 0; run < runs.size(); ++run) {
+  return LineRuns{*axis, *targets, *std::move(up), *std::move(down)};
+}
+
+LineDeviations by_target(const LineRuns& line, const std::vector<std::vector<Vec3>>& shown) {
+  const std::size_t targets = line.targets.size();
+  LineDeviations found{Deviations(targets), Deviations(targets),
+                       std::vector<Vec3>(targets, Vec3::Zero())};
+  for (std::size_t run = 0; run < shown.size(); ++run) {
     const bool is_up = run % 2 == 0;
-    std::vector<Vec3>& seen = readings->runs[run];
-    const std::vector<Vec3>& moved = is_up ? *moved_up : *moved_down;
-    for (std::size_t i = 0; i < moved.size(); ++i) seen[i] += moved[i];
-    auto d =
-        instruments::shown(setup->instrument, std::move(seen), static_cast<std::uint32_t>(run));
-    if (!is_up) std::ranges::reverse(d);
-    for (std::size_t i = 0; i < d.size(); ++i) {
+    for (std::size_t k = 0; k < targets; ++k) {
+      const Vec3& d = shown[run][k];
       // `down` has the opposite order, not the opposite direction.
-      (is_up ? deviations_up : deviations_down)[i].push_back(d[i].dot(up->direction));
-      means[i] += d[i] / (2.0 * words.runs);
+      const std::size_t i = is_up ? k : targets - 1 - k;
+      (is_up ? found.up : found.down)[i].push_back(d.dot(line.up.direction));
+      found.means[i] += d / static_cast<double>(shown.size());
     }
   }
+  return found;
+}
+
+std::map<AxisLetter, instruments::Straightness> straightness_across(
+    const LineRuns& line, const std::vector<Vec3>& means) {
+  std::map<AxisLetter, instruments::Straightness> found;
+  for (const AxisLetter across : kinematics::kLinearAxes) {
+    if (across == line.axis) continue;
+    std::vector<double> deviation;
+    for (const Vec3& mean : means) deviation.push_back(mean[static_cast<Eigen::Index>(across)]);
+    if (const auto of = instruments::straightness_of(line.targets, deviation)) found[across] = *of;
+  }
+  return found;
+}
+
+Result<MotionAnswer> line_answer(const LineWords& words) {
+  const auto setup = motion_setup(words);
+  if (!setup) return setup.error();
+  const auto line = line_of_words(words, *setup);
+  if (!line) return line.error();
+  const auto feed = feed_per_second(words);
+  if (!feed) return feed.error();
+  const auto moved_up = deviations_of(words, *setup, line->up, *feed);
+  if (!moved_up) return moved_up.error();
+  const auto moved_down = deviations_of(words, *setup, line->down, *feed);
+  if (!moved_down) return moved_down.error();
+  std::vector<LineTest> runs;
+  for (int run = 0; run < words.runs; ++run) runs.insert(runs.end(), {line->up, line->down});
+  auto readings = readings_of(words.nc, *setup, runs);
+  if (!readings) return readings.error();
+  for (std::size_t run = 0; run < runs.size(); ++run) {
+    std::vector<Vec3>& seen = readings->runs[run];
+    const std::vector<Vec3>& moved = run % 2 == 0 ? *moved_up : *moved_down;
+    for (std::size_t i = 0; i < moved.size(); ++i) seen[i] += moved[i];
+    seen = instruments::shown(setup->instrument, std::move(seen), static_cast<std::uint32_t>(run));
+  }
+  const LineDeviations deviations = by_target(*line, readings->runs);
   MotionAnswer answer = answer_of("line", fmt::format("Laser along {}", words.axis), *setup);
   if (auto problem = add_line_program(answer, words.nc, *setup, "line", "LASER " + words.axis, runs,
                                       readings->largest_difference)) {
@@ -220,25 +241,25 @@ Result<MotionAnswer> line_answer(const LineWords& words) {
   answer.document["runs"] = static_cast<std::uint64_t>(words.runs);
   if (*feed) answer.document["feed_mm_min"] = *words.feed;
   if (!moved_up->empty()) answer.document["dynamics"] = words.dynamics;
-  answer.document["targets_mm"] = *targets;
+  answer.document["targets_mm"] = line->targets;
   const auto rows = [](const Deviations& by_target) {
     Lists list;
     for (const auto& row : by_target) list.push_back(in_um(row));
     return list;
   };
-  answer.document["deviations_up_um"] = rows(deviations_up);
-  answer.document["deviations_down_um"] = rows(deviations_down);
-  if (auto problem = add_positioning(answer, *targets, deviations_up, deviations_down)) {
+  answer.document["deviations_up_um"] = rows(deviations.up);
+  answer.document["deviations_down_um"] = rows(deviations.down);
+  if (auto problem = add_positioning(answer, line->targets, deviations.up, deviations.down)) {
     return *std::move(problem);
   }
-  answer.document["straightness_um"] = straightness_of_axis(*targets, means, *axis, answer);
+  answer.document["straightness_um"] = straightness_of_axis(*line, deviations.means, answer);
   // What the laser sees along its line, and the tilts that reach it through their levers.
   instruments::Told told;
   told.told = {fmt::format("E{0}{0}", words.axis)};
-  const std::vector<std::string> tilts = *axis == AxisLetter::X ? std::vector<std::string>{"B", "C"}
-                                         : *axis == AxisLetter::Y
-                                             ? std::vector<std::string>{"A", "C"}
-                                             : std::vector<std::string>{"A", "B"};
+  const std::vector<std::string> tilts =
+      line->axis == AxisLetter::X   ? std::vector<std::string>{"B", "C"}
+      : line->axis == AxisLetter::Y ? std::vector<std::string>{"A", "C"}
+                                    : std::vector<std::string>{"A", "B"};
   for (const std::string& tilt : tilts) told.not_told.push_back("E" + tilt + words.axis);
   for (const auto& error : instruments::location_unknowns(setup->machine)) {
     told.not_told.push_back(error.name);

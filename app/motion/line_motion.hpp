@@ -5,6 +5,7 @@
 #pragma once
 
 #include "app/motion/motion_answer.hpp"
+#include "instruments/line_straightness.hpp"
 #include "instruments/line_test.hpp"
 #include "instruments/positioning.hpp"
 
@@ -15,6 +16,26 @@ struct LineWords : MotionWords {
   std::string targets{};
   int runs = 5;
 };
+// Runs up and down by turns over the targets of one axis.
+struct LineRuns {
+  kinematics::AxisLetter axis = kinematics::AxisLetter::X;
+  std::vector<double> targets{};  // mm
+  instruments::LineTest up{}, down{};
+};
+[[nodiscard]] Result<LineRuns> line_of_words(const LineWords& words, const MotionSetup& setup);
+
+// What the runs show, by target: along the axis for each run, and the mean displacement.
+struct LineDeviations {
+  instruments::Deviations up{}, down{};
+  std::vector<Vec3> means{};
+};
+// `shown`: displacements of each run in its order, up first.
+[[nodiscard]] LineDeviations by_target(const LineRuns& line,
+                                       const std::vector<std::vector<Vec3>>& shown);
+// Of the mean displacements, across the axis; nothing of fewer than three targets.
+[[nodiscard]] std::map<kinematics::AxisLetter, instruments::Straightness> straightness_across(
+    const LineRuns& line, const std::vector<Vec3>& means);
+
 [[nodiscard]] Result<MotionAnswer> line_answer(const LineWords& words);
 
 struct DiagonalWords : MotionWords {

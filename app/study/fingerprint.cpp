@@ -78,9 +78,18 @@ Result<std::string> fingerprint_of(const StudyFile& study, const StudyModel& mod
     auto evidence = evidence_of(*study.job);
     if (!evidence) return evidence.error();
     files = std::move(evidence->files);
-  } else if (auto problems = add_hash(files, "machine", study.volumetric->machine_file);
-             !problems.empty()) {
-    return problems;
+  } else {
+    const auto& machine =
+        study.motion ? study.motion->machine_file : study.volumetric->machine_file;
+    if (auto problems = add_hash(files, "machine", machine); !problems.empty()) return problems;
+  }
+  if (study.motion) {
+    const auto test = read_whole_file(study.motion->file);
+    if (!test) return test.error();
+    files.push_back(report::hashed_file("test", study.motion->file.string(), *test));
+    if (auto problems = add_named_hashes(files, *test, study.motion->file); !problems.empty()) {
+      return problems;
+    }
   }
   const auto text = read_whole_file(study.file);
   if (!text) return text.error();

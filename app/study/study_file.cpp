@@ -29,10 +29,15 @@ std::optional<Diagnostic> other_kind_of_file(const TomlTable& root, const fs::pa
     other = error("not-a-study"_id, "this is a study of measured parts, not of a population",
                   "frustum identify reads it; a study of a population names a job: job = "
                   "\"job.toml\"");
-  } else if (!root.has("job") && !root.has("target")) {
-    other =
-        error("not-a-study"_id, "this is no study: it names neither a job nor a target",
-              "write job = \"job.toml\" or target = \"volumetric\"; a job alone is a study too");
+  } else if (!root.has("job") && !root.has("target") && !root.has("motion")) {
+    const bool is_test = root.has("test");
+    other = error(
+        "not-a-study"_id,
+        is_test ? "this is a motion test, not a study"
+                : "this is no study: it names neither a job nor a motion test nor a target",
+        is_test ? "a study names it: motion = \"" + file.filename().string() + "\""
+                : "write job = \"job.toml\", motion = \"test.toml\" or target = \"volumetric\"; a "
+                  "job alone is a study too");
   }
   if (other) other->file = file.string();
   return other;
@@ -66,10 +71,41 @@ std::optional<VolumetricTarget> read_volumetric(const TomlTable& root) {
   return target;
 }
 
-// The job or the target of the file; what they cannot be made of is noted.
+// The machine of the test, without the errors of the file: those of the study are drawn.
+Result<MotionTarget> load_motion(const fs::path& file) {
+  auto words = read_test_file(file);
+  if (!words) return words.error();
+  MotionWords& common = common_words(*words);
+  MotionTarget target{.file = file, .machine_file = common.machine, .errors = common.of_file};
+  common.of_file = {};
+  auto setup = motion_setup(common);
+  if (!setup) return setup.error();
+  target.setup = std::make_shared<const MotionSetup>(*std::move(setup));
+  auto test = drawn_test(*words, *target.setup);
+  if (!test) {
+    Diagnostics problems = test.error();
+    for (Diagnostic& each : problems) {
+      if (each.file.empty()) each.file = file.string();
+    }
+    return problems;
+  }
+  target.test = *std::move(test);
+  return target;
+}
+
+std::vector<StudyCharacteristic> characteristics_of_test(const DrawnTest& test) {
+  std::vector<StudyCharacteristic> all;
+  for (const TestValue& value : test.values) {
+    all.push_back({value.name, value.angular, value.both_sides, std::nullopt});
+  }
+  return all;
+}
+
+// The job, test or target of the file; what they cannot be made of is noted.
 void read_target(const TomlTable& root, StudyFile& study, Diagnostics& problems) {
-  if (root.has("job") && root.has("target")) {
-    root.fail("target", "given-twice"_id, "a study has a job or a target", "leave one of them out");
+  if (root.has("job") + root.has("target") + root.has("motion") > 1) {
+    root.fail(root.has("target") ? "target" : "motion", "given-twice"_id,
+              "a study has a job, a motion test or a target", "leave the others out");
   }
   if (root.has("target")) {
     (void)root.choice("target", {std::string("volumetric")});
@@ -77,6 +113,14 @@ void read_target(const TomlTable& root, StudyFile& study, Diagnostics& problems)
     if (study.volumetric) {
       study.characteristics = {{.name = std::string(kVolumetricError), .limit = std::nullopt}};
     }
+    return;
+  }
+  if (root.has("motion")) {
+    if (root.text("motion").empty()) return;
+    auto motion = load_motion(root.file_path("motion"));
+    if (!motion) return append_all(problems, motion.error());
+    study.characteristics = characteristics_of_test(motion->test);
+    study.motion = *std::move(motion);
     return;
   }
   const std::string name = root.text("job");
@@ -178,6 +222,8 @@ void read_study_errors(const std::optional<TomlTable>& table, const StudyWords& 
     }
   } else if (study.job) {
     list.entries = study.job->errors;
+  } else if (study.motion) {
+    list = study.motion->errors;
   }
   study.errors = list.entries;  // what else is wrong is told beside a bad word of the command line
   auto gathered = gather_errors(std::move(list), words.errors, std::nullopt, study.machine());
@@ -219,7 +265,7 @@ Result<StudyFile> load_study_file(const fs::path& file, const StudyWords& words)
   }
   if (auto other = other_kind_of_file(root, file)) return *other;
   read_target(root, study, problems);
-  if (!study.job && !study.volumetric) {
+  if (!study.job && !study.volumetric && !study.motion) {
     pass_over(root);
     Diagnostics all = document->finish();
     append_all(all, problems);
@@ -233,7 +279,9 @@ Result<StudyFile> load_study_file(const fs::path& file, const StudyWords& words)
   append_all(all, problems);
   if (has_error(all)) return all;
   if (study.title.empty()) {
-    study.title = study.job ? study.job->piece.title : study.machine().title();
+    study.title = study.job      ? study.job->piece.title
+                  : study.motion ? study.motion->file.stem().string()
+                                 : study.machine().title();
   }
   return study;
 }

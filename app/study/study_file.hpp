@@ -9,12 +9,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/job/error_sources.hpp"
 #include "app/job/job.hpp"
+#include "app/motion/drawn_test.hpp"
 #include "app/study/study_characteristic.hpp"
 #include "core/result.hpp"
 #include "studies/answers/shares.hpp"
@@ -44,8 +46,16 @@ struct VolumetricTarget {
   double tool_length = 0.0;  // mm
 };
 
+// A motion test that every machine runs.
+struct MotionTarget {
+  std::filesystem::path file{}, machine_file{};
+  kinematics::ErrorList errors{};  // of the test file, where the study has none
+  std::shared_ptr<const MotionSetup> setup{};
+  DrawnTest test{};  // refers to the set-up
+};
+
 struct StudyMeasurement {
-  bool noise = false;         // each draw is measured by the job's CMM
+  bool noise = false;         // each draw is measured by the job's CMM, the test's instrument
   std::optional<double> u{};  // um: standard uncertainty of lengths; absent: what the CMM gives
 };
 
@@ -78,8 +88,9 @@ struct StudyQuestions {
 struct StudyFile {
   std::string title{};
   std::filesystem::path file{};
-  std::optional<Job> job{};  // one of the two
+  std::optional<Job> job{};  // one of the three
   std::optional<VolumetricTarget> volumetric{};
+  std::optional<MotionTarget> motion{};
   std::uint64_t samples = 10'000;
   std::uint64_t seed = 1;
   studies::SchemeKind scheme = studies::SchemeKind::random;
@@ -96,7 +107,7 @@ struct StudyFile {
   StudyQuestions questions{};
 
   [[nodiscard]] const kinematics::Machine& machine() const {
-    return job ? job->machine : volumetric->machine;
+    return job ? job->machine : volumetric ? volumetric->machine : motion->setup->machine;
   }
 };
 

@@ -1,5 +1,6 @@
 #include "app/study/study_model.hpp"
 
+#include "app/study/motion_model.hpp"
 #include "app/study/piece_model.hpp"
 #include "app/study/volumetric_model.hpp"
 
@@ -46,6 +47,7 @@ std::vector<DrawOutcome> in_lanes(const studies::LinearEngine& engine,
 }
 
 Result<std::unique_ptr<StudyModel>> make_model(const StudyFile& study) {
+  if (study.motion) return make_motion_model(study);
   return study.job ? make_piece_model(study) : make_volumetric_model(study);
 }
 

@@ -131,6 +131,14 @@ void add_scatter(StudyPage& page, const StudyResult& result, const SampleColumns
   if (series.size() == 2) page.scatter = {series[0], series[1]};
 }
 
+// What every machine makes, runs or is asked for.
+std::array<std::string, 2> made_of(const StudyFile& study) {
+  if (study.job) return {"Job", study.job->piece.title};
+  if (study.motion) return {"Motion test", study.motion->file.filename().string()};
+  const std::string& axes = study.volumetric->axes;
+  return {"One pose", axes.empty() ? "home" : axes};
+}
+
 void add_facts(StudyPage& page, const StudyFile& study, const StudyResult& result) {
   std::string engine = result.engine.name;
   if (result.engine.name == "linear") {
@@ -139,14 +147,11 @@ void add_facts(StudyPage& page, const StudyFile& study, const StudyResult& resul
   } else if (!result.engine.reason.empty()) {
     engine += ": " + result.engine.reason;
   }
-  page.facts = {
-      {"Machine", study.machine().name()},
-      {"Machines drawn", fmt::format("{}", result.samples)},
-      {"Seed and scheme", fmt::format("{}, {}", result.seed, result.scheme)},
-      {"Engine", engine},
-      {"Job", study.job ? study.job->piece.title
-                        : "one pose: " +
-                              (study.volumetric->axes.empty() ? "home" : study.volumetric->axes)}};
+  page.facts = {{"Machine", study.machine().name()},
+                {"Machines drawn", fmt::format("{}", result.samples)},
+                {"Seed and scheme", fmt::format("{}, {}", result.seed, result.scheme)},
+                {"Engine", engine},
+                made_of(study)};
   if (!result.failed.empty()) {
     page.remarks.push_back(fmt::format(
         "{} draws failed and count as parts that do not conform; the "

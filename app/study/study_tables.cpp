@@ -113,8 +113,12 @@ void read_limits(const TomlTable& table, StudyFile& study) {
 
 void read_measurement(const TomlTable& table, StudyFile& study) {
   study.measurement.noise = table.boolean_or("noise", false);
-  if (study.measurement.noise && !study.job) {
-    table.fail("noise", "no-cmm"_id, "only a job has a CMM whose noise could be drawn");
+  const bool has_instrument = study.motion && study.motion->setup->instrument.noise > 0.0;
+  if (study.measurement.noise && !study.job && !has_instrument) {
+    table.fail("noise", "no-cmm"_id,
+               study.motion ? "the instrument of the motion test has no noise that could be drawn"
+                            : "only a job has a CMM whose noise could be drawn",
+               study.motion ? "the test file says it: [instrument] noise = \"0.3um\"" : "");
   }
   if (!table.has("u")) return;
   if (table.is_number("u")) {

@@ -21,8 +21,7 @@ constexpr int kCirclePoints = 360;
 
 class ContourPlan {
  public:
-  ContourPlan(const ContourPiece& piece, const ContourGeometry& shape)
-      : piece_(piece), shape_(shape) {
+  ContourPlan(const ContourPiece& piece, const ContourGeometry& shape) : piece_(piece) {
     plan_.title = fmt::format("Contouring piece of {:g} mm, own dimensions", piece.size.value);
     plan_.alignment = metrology::Alignment::plan;
     // Goes half way down each level without touching the ledge.
@@ -96,7 +95,6 @@ class ContourPlan {
   }
 
   const ContourPiece& piece_;
-  const ContourGeometry& shape_;
   metrology::InspectionPlan plan_{};
 };
 

@@ -217,7 +217,7 @@ Hits thinnest(const std::array<Hits, 3>& families, const DepthSearch& search) {
     }
   }
   for (auto& [key, hit] : all) {
-    const auto has_it = [&key](const Hits& family) { return family.contains(key); };
+    const auto has_it = [&key = key](const Hits& family) { return family.contains(key); };
     if (!std::ranges::all_of(families, has_it)) hit = search.depth_at(key, hit.point);
   }
   std::erase_if(all, [](const auto& hit) { return hit.second.length < kThin; });

@@ -188,7 +188,7 @@ std::uint32_t LaneChain::add(const AxisState& at, double tool_length) {
   }
   for (std::size_t c = 0; c < components_.size(); ++c) {
     const auto [joint, direction] = components_[c];
-    const auto value = [&](const GeometricErrors& e) {
+    const auto value = [&, joint = joint, direction = direction](const GeometricErrors& e) {
       return e[joint->letter].component[direction](joint->letter, at);
     };
     numbers[tables_.base_at + c] = value(fixed_);
