@@ -1,5 +1,6 @@
 #include "app/job/machine_files.hpp"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,11 +13,30 @@
 namespace frustum::app {
 namespace fs = std::filesystem;
 
-// Beside the installed program; else beside the source, while developing.
+namespace {
+
+// Of the module that this code is part of, where another program has loaded it; else empty.
+fs::path loaded_module() {
+  Dl_info info{};
+  if (::dladdr(reinterpret_cast<const void*>(&loaded_module), &info) == 0) return {};
+  const fs::path file = info.dli_fname;
+  return file.extension() == ".so" ? fs::absolute(file) : fs::path();
+}
+
+}  // namespace
+
+// Within the Python package, or of the prefix in which it is (PREFIX/lib/python3/dist-packages/
+// frustum); beside the installed program; else beside the source, while developing.
 std::vector<fs::path> machine_folders() {
   std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
   std::vector<fs::path> folders;
+  if (const fs::path module = loaded_module(); !module.empty()) {
+    fs::path prefix = module.parent_path();
+    folders.push_back(prefix / "machines");
+    for (int up = 0; up < 4; ++up) prefix = prefix.parent_path();
+    folders.push_back(prefix / FRUSTUM_INSTALLED_MACHINES);
+  }
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
   if (!program.empty()) {
     folders.push_back(program.parent_path().parent_path() / FRUSTUM_INSTALLED_MACHINES);
   }

@@ -25,6 +25,7 @@ const std::map<std::string, Room>& rooms() {
       {"calibration", {8, {"identify", "design", "compensate"}}},
       {"studies", {8, {"laws", "statistics", "engine", "samples", "answers"}}},
       {"app", {9, {"job", "dynamics", "benchmark", "view", "motion", "study", "command"}}},
+      {"python", {.floor = 10, .is_library = false}},
   };
   return kRooms;
 }

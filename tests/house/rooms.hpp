@@ -14,6 +14,7 @@ namespace frustum::house {
 struct Room {
   int floor = 0;
   std::vector<std::string> folders{};  // in their order; empty: the room is flat
+  bool is_library = true;              // whose headers are installed
 };
 
 [[nodiscard]] const std::map<std::string, Room>& rooms();
