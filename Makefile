@@ -7,7 +7,7 @@ PEERS_BLOCKS ?= 7200
 BUILD = cmake --build --parallel $(JOBS)
 DEMO_OUT = out/cone
 
-.PHONY: help demo build test laws setup asan fuzz bench peers format check-format tidy clean
+.PHONY: help demo build test laws setup asan fuzz bench peers package format check-format tidy clean
 .DEFAULT_GOAL := help
 
 help:
@@ -22,6 +22,7 @@ help:
 	@echo 'make bench         build and run the benchmarks'
 	@echo 'make peers         time, memory and surface error beside Manifold, CGAL and a plain tri-dexel, some minutes;'
 	@echo '                   PEERS_BLOCKS=720 for less, PEERS="--scene both --all" for more, MANIFOLD=where it is installed'
+	@echo 'make package       a Debian package in build/package (what it holds: cmake/FrustumPackage.cmake)'
 	@echo 'make format        format every source file; make check-format only looks'
 	@echo 'make tidy          clang-tidy over the sources (make tidy FILES="core/pose.cpp" for some)'
 	@echo 'make clean         remove build/ and out/'
@@ -62,6 +63,9 @@ peers: build/bench/build.ninja
 	cmake --preset bench $(if $(MANIFOLD),-DCMAKE_PREFIX_PATH=$(abspath $(MANIFOLD))) > /dev/null
 	$(BUILD) --preset bench --target frustum_peers
 	build/bench/bench/frustum_peers --blocks $(PEERS_BLOCKS) $(PEERS)
+
+package: build
+	cpack --config build/release/CPackConfig.cmake -B build/package
 
 format:
 	scripts/format

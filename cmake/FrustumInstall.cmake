@@ -17,6 +17,22 @@ foreach(folder IN LISTS FRUSTUM_FOLDERS)
 endforeach()
 if(TARGET frustum)
   install(TARGETS frustum RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  # Written by the program itself, so that they are those of its commands.
+  set(reference "${CMAKE_BINARY_DIR}/reference")
+  add_custom_command(
+    OUTPUT "${reference}/written"
+    COMMAND "${CMAKE_COMMAND}" -E rm -rf "${reference}"
+    COMMAND frustum reference --man "${reference}/man1" --completion "${reference}/completion"
+    COMMAND "${CMAKE_COMMAND}" -E touch "${reference}/written"
+    DEPENDS frustum
+    COMMENT "Writing man pages and completion"
+    VERBATIM)
+  add_custom_target(frustum_reference ALL DEPENDS "${reference}/written")
+  install(DIRECTORY "${reference}/man1" DESTINATION "${CMAKE_INSTALL_MANDIR}")
+  install(FILES "${reference}/completion/frustum"
+          DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")
+  install(FILES "${reference}/completion/_frustum"
+          DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions")
 endif()
 if(TARGET frustum_mpi) # what the program loads when mpirun has started it
   install(TARGETS frustum_mpi LIBRARY DESTINATION lib/frustum)
@@ -26,6 +42,8 @@ install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/NOTICE"
         DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/" DESTINATION "${CMAKE_INSTALL_DOCDIR}"
         FILES_MATCHING PATTERN "*.md" PATTERN "*.svg")
+
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
 install(EXPORT FrustumTargets NAMESPACE frustum:: DESTINATION "${FRUSTUM_INSTALL_CMAKE}")
 configure_package_config_file(

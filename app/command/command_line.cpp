@@ -12,6 +12,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include "app/view/console.hpp"
 #include "core/spelling.hpp"
@@ -115,6 +116,45 @@ void Command::computes(std::function<int()> action) {
 }
 
 bool Command::was_given(const std::string& name) const { return app_->count(name) > 0; }
+
+namespace {
+
+// Of "TEXT:{a,b}" the words; the library tells no other way.
+std::vector<std::string> words_in(const std::string& type) {
+  std::vector<std::string> words;
+  const auto open = type.find('{'), close = type.rfind('}');
+  if (open == std::string::npos || close == std::string::npos) return words;
+  std::istringstream in(type.substr(open + 1, close - open - 1));
+  for (std::string word; std::getline(in, word, ',');) words.push_back(word);
+  return words;
+}
+
+OptionFacts facts_of(const CLI::Option& option) {
+  OptionFacts facts{.is_required = option.get_required(), .help = option.get_description()};
+  for (const std::string& name : option.get_snames()) facts.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) facts.names.push_back("--" + name);
+  facts.is_positional = facts.names.empty();
+  if (facts.is_positional) facts.names.push_back(option.get_name(true));
+  if (option.get_items_expected_max() == 0) return facts;
+  const std::string type = option.get_type_name();
+  facts.value = type.substr(0, type.find_first_of(": "));
+  facts.words = words_in(type);
+  return facts;
+}
+
+CommandFacts facts_of(const CLI::App& app, const std::string& name) {
+  CommandFacts facts{
+      .name = name, .description = app.get_description(), .footer = app.get_footer()};
+  for (const CLI::Option* option : app.get_options()) facts.options.push_back(facts_of(*option));
+  for (const CLI::App* each : app.get_subcommands([](const CLI::App*) { return true; })) {
+    facts.commands.push_back(facts_of(*each, name + " " + each->get_name()));
+  }
+  return facts;
+}
+
+}  // namespace
+
+CommandFacts Command::facts() const { return facts_of(*app_, app_->get_name()); }
 
 namespace {
 

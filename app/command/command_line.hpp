@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "app/view/command_facts.hpp"
+
 namespace CLI {
 class App;
 class Option;
@@ -73,6 +75,8 @@ class Command {
   void computes(std::function<int()> action);
   // Whether the option was given; known when the command runs.
   [[nodiscard]] bool was_given(const std::string& name) const;
+  // Of it and of all commands within.
+  [[nodiscard]] CommandFacts facts() const;
 
  private:
   CLI::App* app_;

@@ -54,6 +54,7 @@ void add_volumetric(Command& program);
 void add_dynamics(Command& program);
 void add_study(Command& program);
 void add_motion(Command& program);
+void add_reference(Command& program);
 
 // Kinds of test pieces: commands of `program`.
 void add_cone(Command& kinds);

@@ -28,7 +28,15 @@ const char* unit(const Joint& joint) { return joint.rotary() ? "deg" : "mm"; }
 
 int list_machines(const MachinesOptions& options) {
   ordered_json list = ordered_json::array();
-  for (const auto& file : shipped_machines()) {
+  const auto files = shipped_machines();
+  if (files.empty()) {
+    std::string places;
+    for (const auto& folder : machine_folders()) places += " " + folder.string();
+    return refuse(error("no-machines"_id, "there are no machine files in" + places,
+                        "the program finds them beside itself, by /proc"),
+                  options);
+  }
+  for (const auto& file : files) {
     const auto machine = Machine::load(file);
     if (!machine) return refuse(machine.error(), options);
     if (options.json) {

@@ -29,7 +29,7 @@ std::vector<double> places_of(const TimedWay& way) {
     places.push_back(std::lerp(way.from, way.to, i / count));
   }
   std::ranges::sort(places);
-  const auto [first, last] = std::ranges::unique(places);
+  const auto first = std::unique(places.begin(), places.end()), last = places.end();
   places.erase(first, last);
   if (way.to < way.from) std::ranges::reverse(places);
   return places;
