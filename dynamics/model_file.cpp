@@ -49,6 +49,12 @@ double spring_number(const TomlTable& table, const char* key, const SpringUnit& 
   return in_si(table, key, table.number(key), unit);
 }
 
+void refuse_count(const TomlTable& table, const char* key, const char* what, std::size_t expected,
+                  std::size_t found) {
+  table.fail(key, "wrong-type"_id, fmt::format("expected {} numbers, found {}", expected, found),
+             what);
+}
+
 // As many numbers as `what` has names.
 template <std::size_t Count>
 std::array<double, Count> numbers_of(const TomlTable& table, const char* key, const char* what) {
@@ -58,8 +64,7 @@ std::array<double, Count> numbers_of(const TomlTable& table, const char* key, co
   if (values.size() == Count) {
     std::copy(values.begin(), values.end(), found.begin());
   } else if (!was_sound || table.is_sound()) {
-    table.fail(key, "wrong-type"_id,
-               fmt::format("expected {} numbers, found {}", Count, values.size()), what);
+    refuse_count(table, key, what, Count, values.size());
   }
   return found;
 }

@@ -92,6 +92,9 @@ Vec3 across(const Vec3& v, const Vec3& normal) { return v - v.dot(normal) * norm
 WindowBounds::WindowBounds(const kinematics::Machine& /*machine*/, const kinematics::Setup& setup,
                            const ColumnMotion& columns, const stock::Workpiece& workpiece)
     : setup_(setup), columns_(columns), workpiece_(workpiece) {
+  const auto segments = static_cast<std::uint32_t>(workpiece.removed().path().segments.size());
+  boxes_.reserve(segments);
+  for (std::uint32_t s = 0; s < segments; ++s) boxes_.push_back(workpiece.removed().box(s));
   measure_largest();
 }
 
@@ -286,7 +289,7 @@ double WindowBounds::room(const Vec3& point) const {
   const Vec3 around = Vec3::Constant(least);
   const Box near{point - around, point + around};
   for (std::uint32_t s = 0; s < path.segments.size(); ++s) {
-    if (!overlap(workpiece_.removed().box(s), near)) continue;
+    if (!overlap(boxes_[s], near)) continue;
     const kinematics::PathSegment& segment = path.segments[s];
     const cutter::Body& body = workpiece_.removed().tool(path.blocks[segment.block].tool).body();
     const cutter::SegmentMotion motion(path, segment, body.reach());
@@ -339,7 +342,7 @@ Closeness WindowBounds::others(const ContactPlace& at, std::span<const BlockRang
   const Box near{at.point - room, at.point + room};
   for (std::uint32_t s = 0; s < path.segments.size(); ++s) {
     const kinematics::PathSegment& segment = path.segments[s];
-    if (!overlap(workpiece_.removed().box(s), near) || is_in(but, segment.block)) continue;
+    if (!overlap(boxes_[s], near) || is_in(but, segment.block)) continue;
     take_segment(closeness, at, segment, path.blocks[segment.block].tool);
     if (!std::isfinite(closeness.per_scale)) break;
   }

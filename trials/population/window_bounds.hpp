@@ -18,6 +18,7 @@
 #include <span>
 #include <vector>
 
+#include "core/box.hpp"
 #include "kinematics/controller/setup.hpp"
 #include "stock/solid/workpiece.hpp"
 #include "trials/population/column_motion.hpp"
@@ -102,6 +103,7 @@ class WindowBounds {
   const kinematics::Setup& setup_;
   const ColumnMotion& columns_;
   const stock::Workpiece& workpiece_;
+  std::vector<Box> boxes_{};  // of what each segment of the path sweeps
   double largest_ = 0.0;
   Known of_poses_{}, of_places_{};  // of the path, and others
 };
