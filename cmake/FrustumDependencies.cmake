@@ -17,6 +17,7 @@ find_package(OpenMesh CONFIG REQUIRED)        # OpenMeshCore
 find_package(embree 3.13 REQUIRED)            # embree
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5)  # PkgConfig::HDF5, whose CMake module needs C
+pkg_check_modules(HTTPLIB REQUIRED cpp-httplib)  # for one source of app/
 find_package(MPI COMPONENTS CXX)              # MPI::MPI_CXX, where there is one: studies on a cluster
 find_path(FRUSTUM_RANDOM123_INCLUDE Random123/philox.h REQUIRED)
 

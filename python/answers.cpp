@@ -38,7 +38,7 @@ py::dict parameters_of(const metrology::Element& element) {
 
 std::optional<UnitVec3> direction_of(const py::object& given, const std::string& name) {
   if (given.is_none()) return std::nullopt;
-  const auto unit = UnitVec3::of(RowArray(given, name, 3).vector(0));
+  const auto unit = UnitVec3::of(Vec3(RowArray(given, name, 3).only_row().data()));
   if (!unit) refuse_argument(name, "a direction without length", "for example (0, 0, 1)");
   return unit;
 }
@@ -59,7 +59,7 @@ py::dict fit(const std::string& element, const py::object& points, const std::st
   if (const auto out = direction_of(outward, "outward")) options.outward = out->vec();
   if (!weights.is_none()) {
     const RowArray given(weights, "weights", rows.rows());
-    options.weights.assign(given.row(0).begin(), given.row(0).end());
+    options.weights.assign(given.only_row().begin(), given.only_row().end());
   }
   const std::vector<Vec3> cloud = rows.vectors();
   metrology::Association found;
@@ -84,8 +84,10 @@ std::string identify(const std::string& file) {
   return app::identification_json(study, required(app::identify_study(study)));
 }
 
-py::tuple motion(const std::string& file, const py::object& errors) {
-  const auto words = error_words(errors);
+py::tuple motion(const std::string& file, const py::object& errors,
+                 std::optional<std::uint64_t> draw) {
+  auto words = error_words(errors);
+  words.draw = draw;
   std::string document;
   std::vector<std::string> warnings;
   {

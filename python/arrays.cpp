@@ -36,7 +36,7 @@ Numbers doubles_of(const py::object& given, const std::string& name) {
 }  // namespace
 
 RowArray::RowArray(const py::object& given, const std::string& name, std::size_t columns)
-    : array_(doubles_of(given, name)), columns_(columns) {
+    : name_(name), array_(doubles_of(given, name)), columns_(columns) {
   is_one_ = array_.ndim() == 1;
   const bool fits = (is_one_ || array_.ndim() == 2) &&
                     array_.shape(array_.ndim() - 1) == static_cast<py::ssize_t>(columns);
@@ -52,6 +52,13 @@ RowArray::RowArray(const py::object& given, const std::string& name, std::size_t
                     fmt::format("row {}, column {} is {}", i / columns_, i % columns_, data_[i]),
                     "finite numbers");
   }
+}
+
+std::span<const double> RowArray::only_row() const {
+  if (rows_ != 1) {
+    refuse_argument(name_, fmt::format("{} rows", rows_), fmt::format("one, ({},)", columns_));
+  }
+  return row(0);
 }
 
 std::vector<Vec3> RowArray::vectors() const {

@@ -30,10 +30,13 @@ class RowArray {
   }
   [[nodiscard]] Vec3 vector(std::size_t i) const { return Vec3(data_ + 3 * i); }
   [[nodiscard]] std::vector<Vec3> vectors() const;
+  // The only row; refused where there is another number of rows.
+  [[nodiscard]] std::span<const double> only_row() const;
   // (n, columns), or (columns,) where one row was given so.
   [[nodiscard]] Numbers like(std::size_t columns) const;
 
  private:
+  std::string name_{};
   Numbers array_{};
   const double* data_ = nullptr;
   std::size_t rows_ = 0, columns_ = 0;

@@ -3,6 +3,9 @@
 #include <pybind11/stl.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "app/job/job.hpp"
 #include "app/job/job_evidence.hpp"
 #include "app/job/job_report.hpp"
@@ -118,7 +121,7 @@ class PartAlongRays {
   py::tuple along(const py::object& origins, const py::object& directions, double from,
                   double to) const {
     const std::vector<Ray> rays = rays_of(origins, directions);
-    if (!(from < to)) refuse_argument("to", fmt::format("{:g} is not above {:g}", to, from));
+    check_span(from, to);
     std::vector<IntervalSet> found(rays.size());
     {
       const py::gil_scoped_release released;
@@ -141,6 +144,7 @@ class PartAlongRays {
   py::dict first(const py::object& origins, const py::object& directions, double from,
                  double to) const {
     const std::vector<Ray> rays = rays_of(origins, directions);
+    check_span(from, to);
     std::vector<std::optional<stock::SurfacePoint>> found(rays.size());
     {
       const py::gil_scoped_release released;
@@ -172,6 +176,11 @@ class PartAlongRays {
   }
 
  private:
+  static void check_span(double from, double to) {
+    if (!(from < to) || !std::isfinite(from) || !std::isfinite(to)) {
+      refuse_argument("end", fmt::format("{:g} is not above start, {:g}", to, from));
+    }
+  }
   static std::vector<Ray> rays_of(const py::object& origins, const py::object& directions) {
     const RowArray origin(origins, "origins", 3), direction(directions, "directions", 3);
     if (origin.rows() != direction.rows()) {
@@ -280,6 +289,12 @@ py::dict sensitivity_of(const std::string& file, const std::vector<std::string>&
 // A line of JSON a motion.
 std::vector<std::string> canonical_motions(const std::string& file, const std::string& dialect) {
   const py::gil_scoped_release released;
+  const std::vector<std::string> known{"",          "fanuc",      "iso",   "linuxcnc",
+                                       "sinumerik", "heidenhain", "cldata"};
+  if (std::ranges::find(known, dialect) == known.end()) {
+    refuse_argument("dialect", fmt::format("'{}' is not known", dialect),
+                    "fanuc, linuxcnc, sinumerik, heidenhain or cldata");
+  }
   const auto nc = required(app::open_nc(file, dialect));
   std::vector<std::string> lines;
   auto options = app::options_for(file);

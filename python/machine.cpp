@@ -1,7 +1,11 @@
 // Machine: axes, forward and inverse kinematics of many positions at once.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 #include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <limits>
 
 #include "app/job/machine_files.hpp"
 #include "core/constants.hpp"
@@ -24,8 +28,8 @@ app::ErrorWords error_words(const py::object& errors) {
   app::ErrorWords words;
   if (errors.is_none()) return words;
   const auto take = [&words](const py::handle& each) {
-    if (py::isinstance<py::str>(each)) {
-      words.files.push_back(each.cast<std::string>());
+    if (py::isinstance<py::str>(each) || py::hasattr(each, "__fspath__")) {
+      words.files.push_back(each.cast<std::filesystem::path>().string());
       return;
     }
     if (!py::isinstance<py::dict>(each)) {
@@ -44,8 +48,10 @@ app::ErrorWords error_words(const py::object& errors) {
   return words;
 }
 
-kinematics::GeometricErrors errors_of(const py::object& errors, const Machine& machine) {
-  const auto words = error_words(errors);
+kinematics::GeometricErrors errors_of(const py::object& errors, const Machine& machine,
+                                      std::optional<std::uint64_t> draw) {
+  auto words = error_words(errors);
+  words.draw = draw;
   const auto entries =
       required(app::gather_errors({}, words, app::drawn_by(words, std::nullopt), machine));
   return required(kinematics::resolve(machine, entries));
@@ -89,11 +95,19 @@ class AxisColumns {
   std::vector<Column> axes_{};
 };
 
+void check_tool_length(double tool_length) {
+  constexpr double kLongest = 1e9;  // mm, as far as axes go
+  if (tool_length >= 0.0 && tool_length <= kLongest) return;
+  refuse_argument("tool_length",
+                  fmt::format("{}: expected a length in mm, 0 to {:g}", tool_length, kLongest));
+}
+
 // Few poses are not worth another thread.
 constexpr std::size_t kGrain = 512;
 
 py::tuple pose(const Machine& machine, const py::object& axes, const py::object& errors,
-               double tool_length, const py::object& approach) {
+               double tool_length, const py::object& approach, std::optional<std::uint64_t> draw) {
+  check_tool_length(tool_length);
   const AxisColumns columns(machine);
   const RowArray at(axes, "axes", columns.count());
   std::optional<RowArray> heading;
@@ -103,8 +117,15 @@ py::tuple pose(const Machine& machine, const py::object& axes, const py::object&
       refuse_argument("approach",
                       fmt::format("{} rows for {} of axes", heading->rows(), at.rows()));
     }
+    for (std::size_t i = 0; i < heading->rows(); ++i) {
+      for (const double each : heading->row(i)) {
+        if (std::abs(each) > 1.0) {
+          refuse_argument("approach", fmt::format("row {}: {} is not within -1 .. 1", i, each));
+        }
+      }
+    }
   }
-  const auto geometric = errors_of(errors, machine);
+  const auto geometric = errors_of(errors, machine, draw);
   Numbers tips = at.like(3), directions = at.like(3);
   double *tip = tips.mutable_data(), *direction = directions.mutable_data();
   {
@@ -133,14 +154,16 @@ py::tuple pose(const Machine& machine, const py::object& axes, const py::object&
 
 Numbers inverse(const Machine& machine, const py::object& tips, const py::object& directions,
                 double tool_length, const py::object& previous) {
+  check_tool_length(tool_length);
   const AxisColumns columns(machine);
   const RowArray tip(tips, "tip", 3), direction(directions, "direction", 3);
   if (tip.rows() != direction.rows()) {
     refuse_argument("direction", fmt::format("{} rows for {} tips", direction.rows(), tip.rows()));
   }
   AxisPositions at = machine.home();
-  if (!previous.is_none())
-    at = columns.read(RowArray(previous, "previous", columns.count()).row(0));
+  if (!previous.is_none()) {
+    at = columns.read(RowArray(previous, "previous", columns.count()).only_row());
+  }
   Numbers axes = tip.like(columns.count());
   double* row = axes.mutable_data();
   const py::gil_scoped_release released;
@@ -154,6 +177,13 @@ Numbers inverse(const Machine& machine, const py::object& tips, const py::object
       throw Refused(std::move(problems));
     }
     at = found->front().axes;
+    if (!found->front().within_travel) {
+      const auto beyond = kinematics::travel_violations(machine, at);
+      Diagnostic problem = error("axis-overtravel"_id, fmt::format("row {}: beyond travel: {}", i,
+                                                                   fmt::join(beyond, "; ")));
+      problem.key = "tip";
+      throw Refused({std::move(problem)});
+    }
     columns.write(at, row);
   }
   return axes;
@@ -167,8 +197,9 @@ Numbers travels(const Machine& machine) {
     const Joint* joint = machine.joint(letter);
     if (joint == nullptr) continue;
     const double factor = joint->rotary() ? kDegPerRad : 1.0;
-    *to++ = joint->travel.lo * factor;
-    *to++ = joint->travel.hi * factor;
+    constexpr double kEndless = std::numeric_limits<double>::infinity();
+    *to++ = joint->endless ? -kEndless : joint->travel.lo * factor;
+    *to++ = joint->endless ? kEndless : joint->travel.hi * factor;
   }
   return all;
 }
@@ -180,7 +211,9 @@ void bind_machine(py::module_& module) {
                       "A machine file, or a shipped machine by its name.\n\n"
                       "Positions are arrays (n, axes) in mm and degrees, a column an axis in the "
                       "order of `axes`.")
-      .def(py::init([](const std::string& name) { return required(app::load_machine(name, ".")); }),
+      .def(py::init([](const std::filesystem::path& name) {
+             return required(app::load_machine(name.string(), "."));
+           }),
            py::arg("name"))
       .def_property_readonly("name", &Machine::name)
       .def_property_readonly("title", &Machine::title)
@@ -190,15 +223,17 @@ void bind_machine(py::module_& module) {
                              "(axes, 2), mm and degrees; infinite where endless")
       .def("pose", &pose, py::arg("axes"), py::arg("errors") = py::none(),
            py::arg("tool_length") = 0.0, py::arg("approach") = py::none(),
+           py::arg("draw") = py::none(),
            "Tip (mm) and tool axis in the frame of the table, each (n, 3). errors: a dict "
            "{\"EX0C\": \"10 um\"}, an error file, or a list of them. approach: -1 to 1 for each "
            "axis, "
-           "the direction it came in.")
+           "the direction it came in. draw: seed of errors that are written as "
+           "distributions.")
       .def("inverse", &inverse, py::arg("tip"), py::arg("direction"), py::arg("tool_length") = 0.0,
            py::arg("previous") = py::none(),
            "Axis positions of the nominal machine for each tip and tool axis: the solution within "
            "travel that is nearest to the one before, the first nearest to `previous` (default: "
-           "home).")
+           "home). Refused: a tip that no position within travel reaches.")
       .def("__repr__", [](const Machine& m) { return "frustum.Machine(" + m.name() + ")"; });
   module.def(
       "machines",

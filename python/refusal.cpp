@@ -43,6 +43,7 @@ void bind_refusal(py::module_& module) {
       "The input is wrong: `diagnostics` is a list of what is, each a dict with severity, id, "
       "file, "
       "line, column, key, message and hint.";
+  type.attr("diagnostics") = py::list();
   py::register_exception_translator([](std::exception_ptr pointer) {
     try {
       if (pointer) std::rethrow_exception(pointer);

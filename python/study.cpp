@@ -1,8 +1,13 @@
 // Studies: draws of machines and what they make, as arrays; whole studies as documents.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <unistd.h>
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
 
 #include "app/study/sampler.hpp"
 #include "app/study/study_json.hpp"
@@ -39,10 +44,19 @@ T required_of(const std::string& file, Result<T>&& result) {
   throw Refused(std::move(problems));
 }
 
+void check_draws(std::uint32_t count, std::uint32_t first) {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 32U;
+  if (std::uint64_t{first} + count > kMost) {
+    refuse_argument("count", fmt::format("draws {} to {}", first, std::uint64_t{first} + count),
+                    fmt::format("there are {}", kMost));
+  }
+}
+
 // The machines of a study: draws by their numbers.
 class Population {
  public:
-  Population(const std::string& file, std::optional<std::uint64_t> seed, const py::object& errors) {
+  Population(const fs::path& path, std::optional<std::uint64_t> seed, const py::object& errors) {
+    const std::string file = path.string();
     const auto words = words_of(std::nullopt, seed, "", "", errors);
     const py::gil_scoped_release released;
     study_ = std::make_unique<app::StudyFile>(required(app::load_study_file(file, words)));
@@ -64,14 +78,22 @@ class Population {
     if (engine != "full" && engine != "linear") {
       refuse_argument("engine", fmt::format("'{}' is not known", engine), "full or linear");
     }
+    check_draws(count, first);
+    const auto kind = engine == "full" ? studies::EngineKind::full : studies::EngineKind::linear;
+    if (const std::string against = model_->against_linear();
+        kind == studies::EngineKind::linear && !against.empty()) {
+      refuse_argument("engine", "linear cannot stand for this study: " + against, "full");
+    }
+    const auto sampler = required(app::Sampler::make(*study_, *model_, kind));
     std::vector<app::DrawOutcome> outcomes;
-    {
+    constexpr std::uint32_t kAtATime = 256;  // so that Ctrl-C is heard soon
+    for (std::uint32_t done = 0; done < count; done += std::min(kAtATime, count - done)) {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       const py::gil_scoped_release released;
-      const auto kind = engine == "full" ? studies::EngineKind::full : studies::EngineKind::linear;
-      const auto sampler = required(app::Sampler::make(*study_, *model_, kind));
-      const auto drawn = sampler.machines(first, count);
-      outcomes =
+      const auto drawn = sampler.machines(first + done, std::min(kAtATime, count - done));
+      auto some =
           kind == studies::EngineKind::full ? model_->full(drawn, {}) : model_->linear(drawn, {});
+      std::ranges::move(some, std::back_inserter(outcomes));
     }
     const std::size_t width = study_->characteristics.size();
     Numbers values({static_cast<py::ssize_t>(count), static_cast<py::ssize_t>(width)});
@@ -90,6 +112,7 @@ class Population {
 
   // What was drawn: mm, and rad or degrees of phases as in the samples of a study.
   [[nodiscard]] py::dict amounts(std::uint32_t count, std::uint32_t first) const {
+    check_draws(count, first);
     std::vector<std::vector<double>> columns;
     std::vector<std::string> names;
     {
@@ -140,7 +163,7 @@ std::string study_document(const std::string& file, std::optional<std::uint64_t>
                            const std::string& engine, const py::object& errors,
                            const std::optional<std::string>& out) {
   const auto words = words_of(samples, seed, scheme, engine, errors);
-  const py::gil_scoped_release released;
+  std::optional<py::gil_scoped_release> released(std::in_place);
   const auto study = required(app::load_study_file(file, words));
   const auto model = required_of(file, app::make_model(study));
   if (auto problems = app::unanswerable(study, *model); !problems.empty()) {
@@ -156,7 +179,9 @@ std::string study_document(const std::string& file, std::optional<std::uint64_t>
   const auto end = required(
       run.run({.folder = out ? fs::path(*out) : temporary->path()}, interruption, [](auto&) {}));
   if (end.interrupted) {
-    throw Refused({error("interrupted"_id, fmt::format("{} draws were made", end.computed))});
+    released.reset();
+    PyErr_SetNone(PyExc_KeyboardInterrupt);
+    throw py::error_already_set();
   }
   const auto columns = required(run.columns(end.samples));
   return app::study_json(
@@ -168,7 +193,7 @@ std::string study_document(const std::string& file, std::optional<std::uint64_t>
 void bind_study(py::module_& module) {
   py::class_<Population>(module, "Population",
                          "The machines that a study draws, by their numbers. um and urad.")
-      .def(py::init<const std::string&, std::optional<std::uint64_t>, const py::object&>(),
+      .def(py::init<const fs::path&, std::optional<std::uint64_t>, const py::object&>(),
            py::arg("file"), py::arg("seed") = py::none(), py::arg("errors") = py::none())
       .def_property_readonly("characteristics", &Population::characteristics)
       .def_property_readonly("units", &Population::units)

@@ -14,6 +14,7 @@ namespace frustum::python {
 // None; the name of an error file; {"EX0C": "10 um"}; a list of such names and dicts.
 [[nodiscard]] app::ErrorWords error_words(const pybind11::object& errors);
 [[nodiscard]] kinematics::GeometricErrors errors_of(const pybind11::object& errors,
-                                                    const kinematics::Machine& machine);
+                                                    const kinematics::Machine& machine,
+                                                    std::optional<std::uint64_t> draw);
 
 }  // namespace frustum::python

@@ -131,6 +131,9 @@ std::vector<std::string> words_in(const std::string& type) {
 
 OptionFacts facts_of(const CLI::Option& option) {
   OptionFacts facts{.is_required = option.get_required(), .help = option.get_description()};
+  if (const std::string usual = option.get_default_str(); !usual.empty()) {
+    facts.help += " (default " + usual + ")";
+  }
   for (const std::string& name : option.get_snames()) facts.names.push_back("-" + name);
   for (const std::string& name : option.get_lnames()) facts.names.push_back("--" + name);
   facts.is_positional = facts.names.empty();

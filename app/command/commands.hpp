@@ -55,6 +55,7 @@ void add_dynamics(Command& program);
 void add_study(Command& program);
 void add_motion(Command& program);
 void add_reference(Command& program);
+void add_serve(Command& program);
 
 // Kinds of test pieces: commands of `program`.
 void add_cone(Command& kinds);

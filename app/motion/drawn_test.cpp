@@ -72,6 +72,21 @@ auto bar_readings_of(std::vector<BarRun> runs, const MotionSetup& setup) {
   };
 }
 
+auto beyond_stroke_of(std::vector<BarRun> runs, double stroke, std::string parameter) {
+  return [runs = std::move(runs), stroke,
+          parameter = std::move(parameter)](const Numbers& shown) -> std::optional<Diagnostic> {
+    std::span<const double> rest = shown;
+    for (const BarRun& run : runs) {
+      const auto of_run = rest.first(run.test.poses.size());
+      rest = rest.subspan(of_run.size());
+      if (auto beyond = instruments::beyond_stroke(run.test, of_run, stroke, parameter)) {
+        return beyond;
+      }
+    }
+    return std::nullopt;
+  };
+}
+
 auto line_readings_of(std::vector<LineTest> runs, std::vector<std::vector<Vec3>> moved,
                       const MotionSetup& setup) {
   return [runs = std::move(runs), moved = std::move(moved), &setup](const GeometricErrors& errors) {
@@ -158,20 +173,18 @@ class TestDrawer {
                              {"D", "scale", "servo", "backlash_1", "backlash_2"});
     values.push_back({.name = "circle.square", .angular = true, .both_sides = true});
     for (TestValue& value : values) value.of_form = value.name.starts_with("circle.G");
-    DrawnTest drawn{.values = std::move(values), .readings = bar_readings_of(runs, setup_)};
+    DrawnTest drawn{.values = std::move(values),
+                    .readings = bar_readings_of(runs, setup_),
+                    .beyond = beyond_stroke_of(runs, words.stroke, "phi")};
     drawn.unseen_by_forms = first_harmonics(circle->angles, runs.size());
-    drawn.evaluate = [runs, angles = circle->angles, length = circle->length,
-                      stroke = words.stroke](const Numbers& shown) -> Result<Numbers> {
+    drawn.evaluate = [angles = circle->angles,
+                      length = circle->length](const Numbers& shown) -> Result<Numbers> {
       std::vector<CircleTrace> traces;
       auto next = shown.begin();
-      for (std::size_t k = 0; k < runs.size(); ++k) {
+      for (const instruments::Sense sense : instruments::kSenses) {
         const auto end = next + static_cast<std::ptrdiff_t>(angles.size());
-        traces.push_back({instruments::kSenses[k], angles, {next, end}});
+        traces.push_back({sense, angles, {next, end}});
         next = end;
-        if (auto beyond =
-                instruments::beyond_stroke(runs[k].test, traces.back().deviation, stroke, "phi")) {
-          return *std::move(beyond);
-        }
       }
       return circle_numbers(traces, length);
     };
@@ -321,14 +334,11 @@ class TestDrawer {
       return harmonics.error();
     }
     DrawnTest drawn{.values = lengths_of(name, {"form", "amplitude_1", "amplitude_2"}, {"mean"}),
-                    .readings = bar_readings_of({{*test, *moved}}, setup_)};
+                    .readings = bar_readings_of({{*test, *moved}}, setup_),
+                    .beyond = beyond_stroke_of({{*test, *moved}}, words.stroke, parameter)};
     drawn.values.front().of_form = true;
     drawn.unseen_by_forms = first_harmonics(angles, 1);
-    drawn.evaluate = [test = *test, angles, parameter,
-                      stroke = words.stroke](const Numbers& shown) -> Result<Numbers> {
-      if (auto beyond = instruments::beyond_stroke(test, shown, stroke, parameter)) {
-        return *std::move(beyond);
-      }
+    drawn.evaluate = [angles](const Numbers& shown) -> Result<Numbers> {
       const auto found = instruments::turn_harmonics({angles, shown});
       if (!found) return found.error();
       const auto& h = found->value;

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,8 @@ struct DrawnTest {
   std::function<std::vector<double>(const kinematics::GeometricErrors&)> readings{};
   // Readings that values of form do not see, as lists of all readings.
   std::vector<std::vector<double>> unseen_by_forms{};
+  // Why a bar cannot show them; empty: any instrument can.
+  std::function<std::optional<Diagnostic>(const std::vector<double>& shown)> beyond{};
   // In the order of `values`, of what the instrument has shown.
   std::function<Result<std::vector<double>>(const std::vector<double>& shown)> evaluate{};
 };

@@ -13,17 +13,25 @@ extern "C" void frustum_remember_signal(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
+struct sigaction replaced(int signal) {
+  struct sigaction ours {
+  }, before{};
+  ours.sa_handler = frustum_remember_signal;
+  ::sigaction(signal, &ours, &before);
+  return before;
+}
+
 }  // namespace
 
 Interruption::Interruption() {
   came = 0;
-  std::signal(SIGINT, frustum_remember_signal);
-  std::signal(SIGTERM, frustum_remember_signal);
+  before_interrupt_ = replaced(SIGINT);
+  before_end_ = replaced(SIGTERM);
 }
 
 Interruption::~Interruption() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  ::sigaction(SIGINT, &before_interrupt_, nullptr);
+  ::sigaction(SIGTERM, &before_end_, nullptr);
 }
 
 bool Interruption::has_come() const { return came != 0; }

@@ -124,6 +124,12 @@ class MotionModel final : public StudyModel {
                          const EvaluationRequest& request) const {
     readings = instruments::shown(instrument_, std::move(readings), draw);
     DrawOutcome outcome;
+    if (test_.beyond) {
+      if (const auto beyond = test_.beyond(readings)) {
+        outcome.failure = beyond->message;
+        return outcome;
+      }
+    }
     auto values = test_.evaluate(readings);
     if (!values) {
       outcome.failure = values.error().front().message;
@@ -152,8 +158,16 @@ Result<std::unique_ptr<StudyModel>> make_motion_model(const StudyFile& study) {
       {.read_as = study.read_as, .scale = study.scale, .correlated = study.correlated});
   if (!factors) return std::move(factors).error();
   // The machine without the drawn errors must be one that the bar can show.
-  const auto middle = study.motion->test.evaluate(study.motion->test.readings(factors->fixed()));
-  if (!middle) return middle.error();
+  const DrawnTest& test = study.motion->test;
+  const std::vector<double> middle = test.readings(factors->fixed());
+  auto problem = test.beyond ? test.beyond(middle) : std::nullopt;
+  if (!problem) {
+    if (const auto values = test.evaluate(middle); !values) problem = values.error().front();
+  }
+  if (problem) {
+    problem->file = study.motion->file.string();
+    return *std::move(problem);
+  }
   return std::unique_ptr<StudyModel>(std::make_unique<MotionModel>(study, *std::move(factors)));
 }
 

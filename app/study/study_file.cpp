@@ -101,6 +101,16 @@ std::vector<StudyCharacteristic> characteristics_of_test(const DrawnTest& test) 
   return all;
 }
 
+// Noted, unless it is said already that there is no text.
+bool is_empty(const TomlTable& root, const char* key) {
+  const bool was_sound = root.is_sound();
+  if (!root.text(key).empty()) return false;
+  if (root.is_sound() == was_sound) {
+    root.fail(key, "no-file"_id, "names no file", "for example motion = \"circle.toml\"");
+  }
+  return true;
+}
+
 // The job, test or target of the file; what they cannot be made of is noted.
 void read_target(const TomlTable& root, StudyFile& study, Diagnostics& problems) {
   if (root.has("job") + root.has("target") + root.has("motion") > 1) {
@@ -116,15 +126,14 @@ void read_target(const TomlTable& root, StudyFile& study, Diagnostics& problems)
     return;
   }
   if (root.has("motion")) {
-    if (root.text("motion").empty()) return;
+    if (is_empty(root, "motion")) return;
     auto motion = load_motion(root.file_path("motion"));
     if (!motion) return append_all(problems, motion.error());
     study.characteristics = characteristics_of_test(motion->test);
     study.motion = *std::move(motion);
     return;
   }
-  const std::string name = root.text("job");
-  if (name.empty()) return;
+  if (is_empty(root, "job")) return;
   auto job = load_job(root.file_path("job"), {.undrawn = true}, true);
   if (!job) return append_all(problems, job.error());
   study.characteristics = characteristics_of(job->piece.plan);
@@ -159,6 +168,12 @@ void read_head(const TomlTable& root, StudyFile& study) {
   }
 }
 
+Diagnostic unknown_option_word(const std::string& option, const std::string& word,
+                               const std::vector<std::string>& known) {
+  return error("unknown-word"_id, fmt::format("{} '{}' is not known", option, word),
+               suggestion(word, known));
+}
+
 // A word of the command line that must be one of several.
 template <typename Kind>
 void choose(const std::string& option, const std::string& word,
@@ -169,8 +184,7 @@ void choose(const std::string& option, const std::string& word,
     choice = static_cast<Kind>(found - known.begin());
     return;
   }
-  problems.push_back(error("unknown-word"_id, fmt::format("{} '{}' is not known", option, word),
-                           suggestion(word, known)));
+  problems.push_back(unknown_option_word(option, word, known));
 }
 
 void take_words(const StudyWords& words, StudyFile& study, Diagnostics& problems) {
@@ -211,11 +225,8 @@ void read_study_errors(const std::optional<TomlTable>& table, const StudyWords& 
   if (table) {
     list = kinematics::read_errors(*table, find_error_file);
     for (const kinematics::ErrorEntry& e : list.entries) {
+      if (!table->has(e.name)) continue;
       const Diagnostics unfit = kinematics::unfit_shapes(study.machine(), e);
-      if (!table->has(e.name)) {
-        append_all(problems, unfit);
-        continue;
-      }
       const auto unknown = kinematics::unknown_error(study.machine(), e.name);
       if (unknown) table->fail(e.name, *unknown);
       for (const Diagnostic& problem : unfit) table->fail(e.name, problem);
@@ -229,6 +240,11 @@ void read_study_errors(const std::optional<TomlTable>& table, const StudyWords& 
   auto gathered = gather_errors(std::move(list), words.errors, std::nullopt, study.machine());
   if (gathered) {
     study.errors = *std::move(gathered);
+    for (const kinematics::ErrorEntry& e : study.errors) {  // of files and of the command line
+      if (!table || !table->has(e.name)) {
+        append_all(problems, kinematics::unfit_shapes(study.machine(), e));
+      }
+    }
   } else {
     append_all(problems, gathered.error());
   }

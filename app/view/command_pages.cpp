@@ -48,7 +48,8 @@ std::string man_page(const CommandFacts& command, const std::string& version) {
   }
   page += ".SH OPTIONS\n";
   for (const OptionFacts& option : command.options) {
-    page += fmt::format(".TP\n.B {}\n{}\n", roff(spelling_of(option)), roff(option.help));
+    page += fmt::format(".TP\n.B {}\n{}{}\n", roff(spelling_of(option)), roff(option.help),
+                        option.is_required ? " (required)" : "");
   }
   if (!command.footer.empty()) page += fmt::format(".SH NOTES\n{}\n", roff(command.footer));
   page +=
@@ -88,8 +89,13 @@ std::string bash_completion(const CommandFacts& program) {
       for (const CommandFacts& each : command.commands) names.push_back("\"" + each.name + "\"");
       commands += fmt::format("{}{}", commands.empty() ? "" : "|", fmt::join(names, "|"));
     }
-    options += fmt::format("    \"{}\") words=\"{}\" ;;\n", command.name,
-                           fmt::join(words_after(command), " "));
+    std::vector<std::string> named;
+    for (const OptionFacts& option : command.options) {
+      if (option.is_positional) named.insert(named.end(), option.words.begin(), option.words.end());
+    }
+    options += fmt::format("    \"{}\") words=\"{}\" named=\"{}\" files={} ;;\n", command.name,
+                           fmt::join(words_after(command), " "), fmt::join(named, " "),
+                           command.commands.empty() ? "yes" : "");
     for (const OptionFacts& option : command.options) {
       if (option.words.empty() || option.is_positional) continue;
       for (const std::string& name : option.names) {
@@ -100,7 +106,7 @@ std::string bash_completion(const CommandFacts& program) {
   });
   return fmt::format(R"(# Completes the words of frustum in bash.
 _frustum() {{
-  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}} path=frustum words="" i
+  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}} path=frustum words="" files="" named="" i
   for ((i = 1; i < COMP_CWORD; ++i)); do
     case "$path ${{COMP_WORDS[i]}}" in
     {}) path="$path ${{COMP_WORDS[i]}}" ;;
@@ -110,12 +116,14 @@ _frustum() {{
   case "$path $before" in
 {}  esac
   if [[ -n $words ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
+    COMPREPLY=($(compgen -W "$words" -- "$word"))
     return
   fi
   case "$path" in
 {}  esac
-  mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
+  # What is not an option of a command that has none within is a file.
+  [[ $word == -* || -z $files ]] || words=$named
+  COMPREPLY=($(compgen -W "$words" -- "$word"))
 }}
 complete -o bashdefault -o default -F _frustum frustum
 )",

@@ -36,6 +36,10 @@ class Answer(dict):
             if isinstance(value, dict):
                 for key, each in value.items():
                     walk(f"{name}.{key}" if name else key, each)
+            elif isinstance(value, list) and value and all(isinstance(each, dict) for each in value):
+                # Characteristics, estimates and what else has a name.
+                for number, each in enumerate(value):
+                    walk(f"{name}[{each.get('name', number)}]", {k: v for k, v in each.items() if k != "name"})
             elif _is_number(value) or isinstance(value, str):
                 rows.append((name, f"{value:.6g}" if isinstance(value, float) else str(value)))
 
@@ -45,7 +49,9 @@ class Answer(dict):
     def _repr_svg_(self):
         angles = self.get("angles_deg")
         traces = {name: self[name] for name in ("ccw_um", "cw_um", "reading_um") if name in self}
-        return _polar(angles, traces) if angles and traces else None
+        numbers = [angles or [], *traces.values()]
+        drawable = angles and traces and all(_is_number(each) for of in numbers for each in of)
+        return _polar(angles, traces) if drawable else None
 
 
 def _escaped(text):
@@ -91,6 +97,9 @@ class Program:
         self.file = _path(file)
         self.motions = [_json.loads(line) for line in _frustum._motions(self.file, dialect)]
 
+    def __repr__(self):
+        return f"frustum.Program({self.file!r}, {len(self)} motions)"
+
     def __len__(self):
         return len(self.motions)
 
@@ -103,6 +112,9 @@ class Trial:
 
     def __init__(self, made):
         self._made = made
+
+    def __repr__(self):
+        return f"frustum.Trial({len(self.values)} characteristics, {'pass' if self.passes else 'fail'})"
 
     @property
     def values(self):
@@ -151,6 +163,9 @@ class Job:
     def __init__(self, file):
         self.file = _path(file)
 
+    def __repr__(self):
+        return f"frustum.Job({self.file!r})"
+
     def trial(self, errors=None, draw=None, tool_radius_error=None):
         return Trial(_frustum._trial(self.file, errors, draw, tool_radius_error))
 
@@ -162,7 +177,8 @@ class Job:
     def sensitivity(self, parameters=(), errors=None):
         """Derivatives of the characteristics (mm, rad) to machine errors (mm, rad): odd and even part, each
         (characteristics, parameters)."""
-        return _frustum._sensitivity(self.file, list(parameters), errors)
+        parameters = [parameters] if isinstance(parameters, str) else list(parameters)
+        return _frustum._sensitivity(self.file, parameters, errors)
 
 
 def study(file, samples=None, seed=None, scheme="", engine="", errors=None, out=None):
@@ -178,6 +194,10 @@ def identify(file):
 
 
 def _toml(value):
+    if hasattr(value, "tolist"):  # of numpy
+        value = value.tolist()
+    if hasattr(value, "__fspath__"):
+        value = _os.fspath(value)
     if isinstance(value, bool):
         return "true" if value else "false"
     if _is_number(value):
@@ -186,23 +206,24 @@ def _toml(value):
         return _json.dumps(value)
     if isinstance(value, dict):
         return "{" + ", ".join(f"{_json.dumps(str(k))} = {_toml(v)}" for k, v in value.items()) + "}"
-    return "[" + ", ".join(_toml(each.item() if hasattr(each, "item") else each) for each in value) + "]"
+    return "[" + ", ".join(_toml(each) for each in value) + "]"
 
 
-def motion(test, errors=None, **keys):
+def motion(test, errors=None, draw=None, **keys):
     """A motion test: a test file, or a kind of test (circle, rotary, cone, chase, line, diagonal, touch) with the
-    keys of its file, for example motion("circle", machine="iwf-bc", plane="XY", center=[0, 0, 150]).
+    keys of its file (none where a value is None), for example motion("circle", machine="iwf-bc", plane="XY", center=[0, 0, 150]).
 
     The document of `frustum motion`, with `warnings`."""
     if not keys:
-        document, warnings = _frustum._motion(_path(test), errors)
+        document, warnings = _frustum._motion(_path(test), errors, draw)
     else:
-        lines = [f"test = {_toml(test)}"] + [f"{key} = {_toml(value)}" for key, value in keys.items()]
+        lines = [f"test = {_toml(test)}"] + [
+            f"{_json.dumps(key)} = {_toml(value)}" for key, value in keys.items() if value is not None]
         with _tempfile.TemporaryDirectory() as folder:
             file = _os.path.join(folder, "test.toml")
             with open(file, "w", encoding="utf-8") as out:
                 out.write("\n".join(lines) + "\n")
-            document, warnings = _frustum._motion(file, errors)
+            document, warnings = _frustum._motion(file, errors, draw)
     answer = Answer(_json.loads(document))
     answer["warnings"] = warnings
     return answer
@@ -212,4 +233,4 @@ def dynamics(machine, axes="", tool_length=0.0, frequencies="", rates="", map=""
     """Modes, compliances and deviations in motion of a machine with [dynamics]: the document of
     `frustum dynamics`, whose words the arguments are: axes="X=0,Y=10", frequencies="1:200"."""
     return Answer(_json.loads(
-        _frustum._dynamics(machine, axes, tool_length, frequencies, rates, map, quantity, modes)))
+        _frustum._dynamics(_path(machine), axes, tool_length, frequencies, rates, map, quantity, modes)))

@@ -1,9 +1,12 @@
-from typing import Any, Mapping, Optional, Sequence, Union
+import os
+from typing import Any, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Errors = Union[None, str, Mapping[str, str], Sequence[Union[str, Mapping[str, str]]]]
+File = Union[str, os.PathLike[str]]
+ErrorSource = Union[File, dict[str, str]]
+Errors = Union[None, ErrorSource, list[ErrorSource], tuple[ErrorSource, ...]]
 
 __version__: str
 
@@ -11,7 +14,7 @@ class InputError(ValueError):
     diagnostics: list[dict[str, Any]]
 
 class Machine:
-    def __init__(self, name: str) -> None: ...
+    def __init__(self, name: File) -> None: ...
     @property
     def name(self) -> str: ...
     @property
@@ -23,14 +26,19 @@ class Machine:
     @property
     def travels(self) -> NDArray[np.float64]: ...
     def pose(
-        self, axes: ArrayLike, errors: Errors = None, tool_length: float = 0.0, approach: Optional[ArrayLike] = None
+        self,
+        axes: ArrayLike,
+        errors: Errors = None,
+        tool_length: float = 0.0,
+        approach: Optional[ArrayLike] = None,
+        draw: Optional[int] = None,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
     def inverse(
         self, tip: ArrayLike, direction: ArrayLike, tool_length: float = 0.0, previous: Optional[ArrayLike] = None
     ) -> NDArray[np.float64]: ...
 
 class Population:
-    def __init__(self, file: str, seed: Optional[int] = None, errors: Errors = None) -> None: ...
+    def __init__(self, file: File, seed: Optional[int] = None, errors: Errors = None) -> None: ...
     @property
     def characteristics(self) -> list[str]: ...
     @property

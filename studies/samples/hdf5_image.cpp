@@ -21,6 +21,8 @@ constexpr std::size_t kChunkBytes = 1U << 17U;
 constexpr int kDeflateLevel = 1;
 // Bytes by which the image of a file grows.
 constexpr std::size_t kImageBytes = 1U << 20U;
+// An image has a name, and the library looks for it on the disk: where nothing can be.
+constexpr const char* kNowhere = "/dev/null/samples";
 
 // A handle of the library and how it is given back.
 class Handle {
@@ -160,7 +162,7 @@ Hdf5Writer::Hdf5Writer() : image_(std::make_unique<Image>()) {
   const Handle made(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_obj_track_times(made.id(), false);
   H5Pset_link_creation_order(made.id(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
-  image_->file = Handle(H5Fcreate("samples", H5F_ACC_TRUNC, made.id(), in_memory().id()), H5Fclose);
+  image_->file = Handle(H5Fcreate(kNowhere, H5F_ACC_TRUNC, made.id(), in_memory().id()), H5Fclose);
   image_->make_links = Handle(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_char_encoding(image_->make_links.id(), H5T_CSET_UTF8);
 }
@@ -320,7 +322,7 @@ std::optional<Hdf5Reader> Hdf5Reader::open(std::string_view bytes) {
     return std::nullopt;
   }
   auto image = std::make_unique<Image>();
-  image->file = Handle(H5Fopen("samples", H5F_ACC_RDONLY, access.id()), H5Fclose);
+  image->file = Handle(H5Fopen(kNowhere, H5F_ACC_RDONLY, access.id()), H5Fclose);
   if (!image->file) return std::nullopt;
   const Handle root(H5Gopen2(image->file.id(), "/", H5P_DEFAULT), H5Gclose);
   image->list(root.id(), "");

@@ -187,7 +187,9 @@ Result<std::uint64_t> SampleFolder::merge(std::span<const fs::path> folders) con
   std::map<std::uint64_t, fs::path> found;
   for (const fs::path& folder : folders) {
     const auto files = files_of(folder / "samples", kPart);
-    if (files.empty()) {
+    std::error_code problem;
+    // A part of few draws has none: draws are shared out by whole files.
+    if (!fs::is_directory(folder / "samples", problem)) {
       Diagnostic failure = error("samples"_id, "there are no samples in this folder",
                                  "name the --out of the study's parts");
       failure.file = folder.string();

@@ -179,6 +179,30 @@ TEST_F(StudyMotionSystem, NoiseScattersAsTheSignatureStates) {
               find(study, "circle.square")["mean"].get<double>(), 6.0 * sd);
 }
 
+// Samples are images in memory: nothing on the disk is looked at by their name.
+TEST_F(StudyMotionSystem, AFolderThatIsCalledSamplesIsNoHindrance) {
+  write_circle();
+  write("study.toml", "motion = \"circle.toml\"\n[errors]\nEC0Y = \"normal 0urad sd 20urad\"\n");
+  fs::create_directories(folder_ / "samples");
+  const Outcome here = run("study study.toml --samples 20 --out .");
+  EXPECT_EQ(here.exit_code, 0) << here.err;
+  EXPECT_TRUE(fs::exists(folder_ / "samples/part-000000.h5"));
+}
+
+// Parts share out whole files of draws: of few draws the first has all.
+TEST_F(StudyMotionSystem, PartsWithoutDrawsAreMerged) {
+  write_circle();
+  write("study.toml", "motion = \"circle.toml\"\n[errors]\nEC0Y = \"normal 0urad sd 20urad\"\n");
+  for (const char* part : {"1", "2", "3"}) {
+    const Outcome done =
+        run(std::string("study study.toml --samples 300 --part ") + part + "/3 --out p" + part);
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+  }
+  const json merged = result_of("study study.toml --samples 300 --merge p1 p2 p3 --out m");
+  const json whole = result_of("study study.toml --samples 300 --out whole");
+  EXPECT_EQ(merged["characteristics"], whole["characteristics"]);
+}
+
 TEST_F(StudyMotionSystem, SaysWhatItCannotStudy) {
   write_circle();
   const std::string law = "[errors]\nEC0Y = \"normal 0urad sd 20urad\"\n";
@@ -200,6 +224,8 @@ TEST_F(StudyMotionSystem, SaysWhatItCannotStudy) {
       {"motion = \"circle.toml\"\n[errors]\nEX0Q = \"1um\"\n", "EX0Q"},
       {"motion = \"none.toml\"\n" + law, "none.toml"},
       {"motion = \"circle.toml\"\n", "drawn"},
+      {"motion = \"\"\n" + law, "names no file"},
+      {"job = \"\"\n" + law, "names no file"},
       {"motion = \"short.toml\"\n[errors]\nEC0Y = \"normal 500urad sd 20urad\"\n", "stroke"},
       {read(folder_ / "circle.toml"), "motion = \"study.toml\""},
   };

@@ -24,7 +24,7 @@ const std::map<std::string, Room>& rooms() {
       {"trials", {7, {"population"}}},
       {"calibration", {8, {"identify", "design", "compensate"}}},
       {"studies", {8, {"laws", "statistics", "engine", "samples", "answers"}}},
-      {"app", {9, {"job", "dynamics", "benchmark", "view", "motion", "study", "command"}}},
+      {"app", {9, {"job", "dynamics", "benchmark", "view", "motion", "study", "serve", "command"}}},
       {"python", {.floor = 10, .is_library = false}},
   };
   return kRooms;

@@ -29,7 +29,7 @@ class MachineTest(unittest.TestCase):
     def setUp(self):
         self.machine = frustum.Machine("iwf-bc")
         rng = np.random.default_rng(5)
-        low, high = self.machine.travels.T
+        low, high = np.where(np.isinf(self.machine.travels), [-180, 180], self.machine.travels).T
         self.axes = low + (high - low) * rng.random((300, 5))
 
     def test_poses_are_those_of_the_program(self):
@@ -93,6 +93,26 @@ class MachineTest(unittest.TestCase):
             self.machine.pose(self.axes, errors={"EX0Q": "1 um"})
         with self.assertRaises(frustum.InputError):
             self.machine.inverse([[0, 0, 100.0]], [[0, 0, 0]])
+        for tip, direction, says in (([0, 0, 0], [0, 0, -1.0], "B = "), ([1000, 0, 0], [0, 0, 1.0], "X = ")):
+            with self.assertRaises(frustum.InputError) as raised:
+                self.machine.inverse(tip, direction)
+            self.assertIn(says, str(raised.exception))
+        for wrong in ({"tool_length": float("nan")}, {"tool_length": -5.0}, {"approach": np.full(5, 7.0)},
+                      {"approach": np.zeros((2, 5))}):
+            with self.assertRaises(frustum.InputError):
+                self.machine.pose(np.zeros(5), **wrong)
+        for rows in (0, 2):
+            with self.assertRaises(frustum.InputError):
+                self.machine.inverse([0, 0, 0], [0, 0, 1.0], previous=np.zeros((rows, 5)))
+
+    def test_drawn_errors_have_a_draw(self):
+        law = {"EX0C": "uniform -10um..10um"}
+        with self.assertRaises(frustum.InputError):
+            self.machine.pose(np.zeros(5), law)
+        one, _ = self.machine.pose(np.zeros(5), law, draw=1)
+        two, _ = self.machine.pose(np.zeros(5), law, draw=2)
+        self.assertFalse((one == two).all())
+        self.assertTrue(np.isinf(self.machine.travels[4]).all())
 
     def test_ten_thousand_calls_leave_nothing_behind(self):
         def size():
@@ -181,6 +201,13 @@ class JobTest(unittest.TestCase):
             self.assertEqual([float(row["characteristics/" + name]) for row in rows], values[:, k].tolist())
         again, _ = population.evaluate(1, first=2)
         self.assertTrue((again[0] == values[2]).all())
+        with self.assertRaises(frustum.InputError):
+            population.evaluate(3, first=2**32 - 2)
+        bent = os.path.join(self.folder.name, "bent.toml")
+        with open(bent, "w") as out:
+            out.write('job = "piece/job.toml"\n[errors]\nEXX = "tent 10um at uniform -100mm..100mm"\n')
+        with self.assertRaises(frustum.InputError):
+            frustum.Population(bent).evaluate(1, engine="linear")
         amounts = population.amounts(3)["amounts/EX0C/0"]
         self.assertLessEqual(abs(amounts).max(), 0.010)
 
@@ -205,7 +232,8 @@ class AnswersTest(unittest.TestCase):
                 self.assertEqual(by_command["parameters"]["radius"], found["parameters"]["radius"])
                 self.assertEqual(by_command["parameters"]["axis"], found["parameters"]["axis"].tolist())
                 self.assertEqual(by_command["residuals"], found["residuals"].tolist())
-        for wrong in ({"criterion": "xx"}, {"axis": (0, 0, 0)}, {"weights": np.ones(3)}):
+        for wrong in ({"criterion": "xx"}, {"axis": (0, 0, 0)}, {"axis": np.zeros((0, 3))}, {"axis": np.ones((2, 3))},
+                      {"weights": np.ones(3)}, {"weights": np.zeros((0, 200))}):
             with self.assertRaises(frustum.InputError):
                 frustum.fit("cylinder", points, **wrong)
         with self.assertRaises(frustum.InputError):
@@ -226,6 +254,15 @@ class AnswersTest(unittest.TestCase):
             frustum.motion("circle", machine="iwf-bc", plan="XY", center=[0, 0, 150])
         self.assertTrue(any("plane" in each["hint"] + each["message"] + each["key"]
                             for each in raised.exception.diagnostics))
+
+    def test_signals_are_as_before_a_study(self):
+        def caught():
+            with open("/proc/self/status") as file:
+                return next(line for line in file if line.startswith("SigCgt"))
+
+        before = caught()
+        frustum.study(os.path.join(EXAMPLES, "ballbar", "machines.toml"), samples=50)
+        self.assertEqual(caught(), before)
 
     def test_documents_are_those_of_the_commands(self):
         file = os.path.join(EXAMPLES, "ibaraki-2010", "study.toml")
