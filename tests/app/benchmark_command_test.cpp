@@ -180,7 +180,8 @@ TEST_F(BenchmarkSystem, BaselinesOfTheOpenExamplesAreThoseOfTheTable) {
     const std::vector<double> stated = row_of(table, data);
     ASSERT_EQ(stated.size(), 12U) << data;
     std::size_t at = 0;
-    for (const json& machine : json::parse(scored.out)["machines"]) {
+    const json scores = json::parse(scored.out);
+    for (const json& machine : scores["machines"]) {
       const std::string id = machine["id"];
       std::cout << data << ' ' << id;
       for (const char* kind : {"points", "poses", "errors"}) {
