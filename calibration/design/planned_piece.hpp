@@ -3,10 +3,10 @@
 //
 // Model    : by characteristics: those that identification takes of it (piece_observations.hpp).
 //            By points: every probed point that the program cuts, along its normal, with the noise
-//            of the CMM (point_uncertainty.hpp) and its linear field; of a workpiece that nobody
-//            has placed, a shift and a turn of all points are unknowns of their own. The information
-//            of the points is kept, G^T S^-1 G less what these unknowns take of it, in as many rows as
-//            there are unknowns
+//            of the CMM (point_uncertainty.hpp) and its linear field; where nobody has placed the
+//            workpiece, a shift and a turn of all points are unknowns of their own. Kept is the
+//            information, G^T S^-1 G less what these unknowns take of it, in as many rows as there
+//            are unknowns
 // Units    : mm, rad; rows of points over their standard deviation; s
 // Shape    : columns: the unknowns; causes after the last one of the pieces do nothing
 // Errors   : those of the trial; no CMM, or one without errors; nothing that is cut is probed

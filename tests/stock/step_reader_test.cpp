@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <Interface_Static.hxx>
@@ -112,8 +113,12 @@ TEST_F(StepReader, SaysWhatIsWrong) {
   EXPECT_EQ(fault("", 0.001), "step-unreadable");
   EXPECT_EQ(fault("solid cube\nendsolid\n", 0.001), "step-unreadable");
   EXPECT_EQ(fault("ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n", 0.001),
-            "step-empty");
+            "step-unreadable");
   EXPECT_EQ(fault("", 0.0), "out-of-range");
+  write(BRepBuilderAPI_MakeVertex(gp_Pnt(1.0, 2.0, 3.0)).Shape());
+  const auto point = read_step(file_, Mm{0.001});
+  ASSERT_FALSE(point);
+  EXPECT_EQ(point.error().front().id.text(), "step-empty");
   fs::remove(file_);
   const auto missing = read_step(file_, Mm{0.001});
   ASSERT_FALSE(missing);
