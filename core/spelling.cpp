@@ -9,7 +9,8 @@
 namespace frustum {
 namespace {
 
-// Letters that are wrong, missing or too many; two neighbours that changed places count as one.
+// Letters that are wrong, missing or too many; two neighbours that changed places count as one, but
+// in a word of three letters, where that makes another word (zyx, zxy).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
   const auto same = [&](char c, char d) { return lower(c) == lower(d); };
@@ -22,7 +23,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     for (std::size_t j = 1; j <= b.size(); ++j) {
       const std::size_t replaced = above[j - 1] + (same(a[i - 1], b[j - 1]) ? 0 : 1);
       row[j] = std::min({above[j] + 1, row[j - 1] + 1, replaced});
-      if (i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1])) {
+      if (a.size() > 3 && i > 1 && j > 1 && same(a[i - 1], b[j - 2]) && same(a[i - 2], b[j - 1])) {
         row[j] = std::min(row[j], second[j - 2] + 1);
       }
     }

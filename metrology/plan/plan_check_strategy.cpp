@@ -174,10 +174,10 @@ class StrategyCheck {
       all += std::max(points, 0);
     }
     if (!positive || s.points.size() < 2 || s.points.size() > 1000 || all < 5) {
-      wrong(
-          fmt::format("a sphere needs 2 or more circles with 5 or more points in all, "
-                      "planned are {} circles with {} points",
-                      s.points.size(), all));
+      wrong(fmt::format(
+          "a sphere needs 2 or more circles with 5 or more points in all, "
+          "planned are {} with {}",
+          counted(s.points.size(), "circle"), counted(static_cast<std::size_t>(all), "point")));
     }
     const auto lies_on_sphere = [](double polar) {
       return polar >= 0.0 && polar <= std::numbers::pi;
