@@ -138,6 +138,59 @@ TEST_F(TestPieceSystem, DesignChoosesPiecesAndMotionTestsUnderABudget) {
   EXPECT_EQ(run("identify plan.toml").exit_code, 2);
 }
 
+// The numbers of a row of docs/test-pieces.md that begins with `name`.
+std::vector<double> documented(const std::string& text, const std::string& name) {
+  const std::string begin = "\n| " + name + " |";
+  std::vector<double> numbers;
+  const auto at = text.find(begin, text.find("### Information per hour"));
+  if (at == std::string::npos) return numbers;
+  std::istringstream cells(
+      text.substr(at + begin.size(), text.find('\n', at + 1) - at - begin.size()));
+  for (std::string cell; std::getline(cells, cell, '|') && numbers.size() < 8;) {
+    numbers.push_back(std::strtod(cell.c_str(), nullptr));
+  }
+  return numbers;
+}
+
+TEST_F(TestPieceSystem, TheInformationPerHourIsAsDocumented) {
+  const fs::path source = FRUSTUM_SOURCE_DIR;
+  for (const char* example : {"which-piece", "r-test", "ballbar"}) {
+    fs::copy(source / "examples" / example, folder_ / example);
+  }
+  for (const char* words :
+       {"cone --out which-piece/cone", "step --workpiece 1 --out which-piece/steps-1",
+        "step --workpiece 2 --out which-piece/steps-2", "s-piece --out which-piece/s-piece",
+        "contour --out which-piece/contour"}) {
+    ASSERT_EQ(run(std::string("program ") + words + " --machine zx-yac --quiet").exit_code, 0)
+        << words;
+  }
+  const std::string text = read(source / "docs/test-pieces.md");
+  const json points = json::parse(run("design --study which-piece/plan.toml --json").out)["items"];
+  const json values =
+      json::parse(run("design --study which-piece/values.toml --json").out)["items"];
+  EXPECT_EQ(points.size(), 8U);
+  for (const auto& [item, name] : {std::pair{"cone", "cone"},
+                                   {"steps-1", "steps-1"},
+                                   {"steps-2", "steps-2"},
+                                   {"s-piece", "S"},
+                                   {"contour", "contouring"},
+                                   {"bar XY", "ball bar XY"},
+                                   {"bar C", "ball bar, C axis"},
+                                   {"R-test", "R-test, 30 poses"}}) {
+    const std::vector<double> row = documented(text, name);
+    ASSERT_EQ(row.size(), 8U) << name;
+    std::vector<double> found;
+    for (const char* key : {"machine_hours", "cmm_hours", "rank", "bits", "bits_per_hour"}) {
+      found.push_back(points[item][key].get<double>());
+    }
+    for (const char* key : {"rank", "bits", "bits_per_hour"}) {
+      found.push_back(values.contains(item) ? values[item][key].get<double>() : 0.0);
+    }
+    for (std::size_t k = 0; k < 8; ++k)
+      EXPECT_NEAR(row[k], found[k], k < 2 ? 0.006 : 0.06) << name << k;
+  }
+}
+
 TEST_F(TestPieceSystem, ASurfaceOfYourOwnIsCut) {
   std::string net = "row,x,y,z\n";
   for (int i = 0; i < 4; ++i) {
