@@ -25,3 +25,14 @@ if(FRUSTUM_WITH_CGAL)
   set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
   find_package(CGAL 5.5 REQUIRED)             # CGAL::CGAL
 endif()
+
+# An optional component: who has no OpenCASCADE (scripts/setup --with-step) gets everything else.
+if(FRUSTUM_WITH_STEP)
+  find_package(OpenCASCADE QUIET CONFIG
+               COMPONENTS FoundationClasses ModelingData ModelingAlgorithms Visualization ApplicationFramework
+                          DataExchange)  # TKSTEP, TKMesh; the others are what these name
+  if(OpenCASCADE_FOUND AND OpenCASCADE_VERSION VERSION_LESS 7.6) # a version in the call would have to be equal
+    message(STATUS "OpenCASCADE ${OpenCASCADE_VERSION} is older than 7.6: STEP files are not read")
+    set(OpenCASCADE_FOUND OFF)
+  endif()
+endif()

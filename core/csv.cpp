@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
+#include "core/counted.hpp"
 #include "core/printable_text.hpp"
+#include "core/spelling.hpp"
 #include "core/text_words.hpp"
 #include "core/whole_file.hpp"
 
@@ -90,10 +94,10 @@ Result<CsvTable> CsvTable::parse(std::string_view text, const std::filesystem::p
                    fmt::format("expected: {}", fmt::join(columns, ",")));
     }
     if (parts.fields.size() != table.columns_.size()) {
-      return wrong(
-          line, 1,
-          fmt::format("{} fields, the header has {}", parts.fields.size(), table.columns_.size()),
-          fmt::format("expected: {}", fmt::join(table.columns_, ",")));
+      return wrong(line, 1,
+                   fmt::format("{}, the header has {}", counted(parts.fields.size(), "field"),
+                               table.columns_.size()),
+                   fmt::format("expected: {}", fmt::join(table.columns_, ",")));
     }
     table.rows_.push_back({line, std::move(parts.fields)});
   }
@@ -109,6 +113,20 @@ Result<CsvTable> CsvTable::load(const std::filesystem::path& file,
   const auto text = read_whole_file(file);
   if (!text) return text.error();
   return parse(*text, file, columns);
+}
+
+Result<std::size_t> CsvTable::column(std::string_view name) const {
+  const auto found = std::ranges::find(columns_, name);
+  const bool once =
+      found != columns_.end() && std::find(found + 1, columns_.end(), name) == columns_.end();
+  if (once) return static_cast<std::size_t>(found - columns_.begin());
+  Diagnostic failure = error("csv"_id,
+                             fmt::format("the header has {} column '{}'",
+                                         found == columns_.end() ? "no" : "more than one", name),
+                             suggestion(name, columns_));
+  failure.file = file_.string();
+  failure.line = 1;
+  return failure;
 }
 
 Diagnostic CsvTable::about(const CsvRow& row, std::size_t column, DiagnosticId id,

@@ -38,6 +38,8 @@ class CsvTable {
   [[nodiscard]] const std::vector<CsvRow>& rows() const { return rows_; }
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 
+  // Where a column is, by its name; it must be there once.
+  [[nodiscard]] Result<std::size_t> column(std::string_view name) const;
   // What is wrong with a field of a row.
   [[nodiscard]] Diagnostic about(const CsvRow& row, std::size_t column, DiagnosticId id,
                                  std::string message, std::string hint = {}) const;

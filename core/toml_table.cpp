@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/counted.hpp"
 #include "core/spelling.hpp"
 #include "core/toml_document.hpp"
 #include "core/toml_node.hpp"
@@ -237,7 +238,8 @@ std::vector<double> TomlTable::numbers(std::string_view key) const {
 std::vector<std::vector<double>> TomlTable::rows(std::string_view key, std::size_t width) const {
   const Node* node = find(key, true);
   if (node == nullptr) return {};
-  const std::string expected = fmt::format("expected a list of rows of {} numbers each", width);
+  const std::string expected =
+      fmt::format("expected a list of rows of {} each", counted(width, "number"));
   const Node::Array* items = node->array();
   if (items == nullptr) {
     fail(key, "wrong-type"_id, fmt::format("{}, found {}", expected, kind_of(*node)));

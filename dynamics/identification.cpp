@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/constants.hpp"
+#include "core/counted.hpp"
 #include "core/general_algebra.hpp"
 #include "core/linear_algebra.hpp"
 #include "core/spelling.hpp"
@@ -283,7 +284,9 @@ std::optional<Diagnostic> refused(const DynamicModel& model, const Fit& fit,
   if (names.empty() || fit.residual_count() <= static_cast<Index>(names.size())) {
     return error(
         "too-few-values"_id,
-        fmt::format("{} measured lines for {} parameters", fit.residual_count() / 2, names.size()),
+        fmt::format("{} for {}",
+                    counted(static_cast<std::size_t>(fit.residual_count()) / 2, "measured line"),
+                    counted(names.size(), "parameter")),
         "give more lines, or fewer parameters");
   }
   return std::nullopt;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/constants.hpp"
+#include "core/counted.hpp"
 #include "core/text_words.hpp"
 #include "core/whole_file.hpp"
 #include "dynamics/response_units.hpp"
@@ -212,7 +213,7 @@ class Dataset58 {
     std::vector<double> values;
     for (std::size_t k = kData; values.size() < wanted; ++k) {
       if (first_ + k >= lines_.size() || trimmed(lines_[first_ + k]) == "-1") {
-        return fault(k, fmt::format("{} numbers are missing", wanted - values.size()));
+        return fault(k, fmt::format("{} missing", counted(wanted - values.size(), "number")));
       }
       const std::string_view line = lines_[first_ + k];
       for (std::size_t at = 0;
@@ -352,7 +353,8 @@ Result<Responses> read_csv(const std::vector<std::string_view>& lines, const Pla
       values.push_back(*value);
     }
     if (values.size() != width) {
-      return place.fault(number, fmt::format("{} cells, expected {}", values.size(), width), hint);
+      return place.fault(
+          number, fmt::format("{}, expected {}", counted(values.size(), "cell"), width), hint);
     }
     for (CsvColumn& column : columns) {
       column.response.frequencies.push_back(values[0]);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/counted.hpp"
 #include "core/linear_algebra.hpp"
 
 namespace frustum::instruments {
@@ -21,9 +22,9 @@ Mat3 cross_matrix(const Vec3& v) {
 std::optional<Diagnostic> in_line(std::span<const Vec3> balls) {
   if (balls.size() < 3) {
     return error("balls-in-line"_id,
-                 fmt::format("{} balls leave turns of the table open: maps need three that are "
+                 fmt::format("turns of the table are open with {}: maps need three that are "
                              "not in line",
-                             balls.size()));
+                             counted(balls.size(), "ball")));
   }
   const Vec3 first = balls[1] - balls[0];
   for (const Vec3& ball : balls) {

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <optional>
 
+#include "core/counted.hpp"
+
 namespace frustum::instruments {
 namespace {
 
@@ -54,16 +56,16 @@ DirectionValues direction_values(const Deviations& deviations) {
 std::optional<Diagnostic> misshapen(const Deviations& up, const Deviations& down) {
   if (up.size() < 2 || up.size() != down.size()) {
     return error("too-few-targets"_id,
-                 fmt::format("{} targets up and {} down: expected the same two or more", up.size(),
-                             down.size()));
+                 fmt::format("{} up and {} down: expected the same two or more",
+                             counted(up.size(), "target"), down.size()));
   }
   const std::size_t runs = up.front().size();
   for (const Deviations* side : {&up, &down}) {
     for (const std::vector<double>& row : *side) {
       if (row.size() == runs && runs >= 2) continue;
       return error("too-few-runs"_id,
-                   fmt::format("a target has {} runs, another {}: expected the same two or more",
-                               row.size(), runs),
+                   fmt::format("a target has {}, another {}: expected the same two or more",
+                               counted(row.size(), "run"), runs),
                    "ISO 230-2 asks for five runs in each direction");
     }
   }

@@ -45,19 +45,10 @@ std::string blank_text(const stock::BlankShape& shape, const Vec3& origin) {
       2.0 * frustum.bottom_radius, 2.0 * frustum.top_radius, frustum.height, vector_text(origin));
 }
 
-// With the mean normal of the facets at each corner.
 std::string mesh_text(const stock::FacetSolid& solid) {
   stock::SurfaceMesh mesh;
   mesh.vertices.assign(solid.vertices().begin(), solid.vertices().end());
   mesh.triangles.assign(solid.facets().begin(), solid.facets().end());
-  mesh.normals.assign(mesh.vertices.size(), Vec3::Zero());
-  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-    for (const std::uint32_t corner : mesh.triangles[f]) {
-      mesh.normals[corner] += solid.normal(static_cast<EndTag>(f));
-    }
-  }
-  for (Vec3& normal : mesh.normals) normal.normalize();
-  mesh.kinds.assign(mesh.vertices.size(), stock::VertexKind::surface);
   return stock::mesh_bytes(mesh, stock::MeshFormat::ply);
 }
 

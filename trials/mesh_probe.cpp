@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/counted.hpp"
 #include "core/decimal.hpp"
 #include "core/units.hpp"
 #include "metrology/plan/point_scale.hpp"
@@ -27,10 +28,10 @@ std::optional<Diagnostic> note_of(const stock::WeldedMesh& joined, double mm,
   if (joined.moved == 0) return std::nullopt;
   const double um = joined.farthest * mm * kUmPerMm;
   std::string message = fmt::format(
-      "{} corners of the mesh were joined with others {} um away or less", joined.moved,
+      "{} of the mesh joined with others {} um away or less", counted(joined.moved, "corner"),
       um < 1.0 ? fixed_decimal(std::max(um, 0.001), 3) : fixed_decimal(um, um < 10.0 ? 1 : 0));
   if (joined.lost_facets > 0) {
-    message += fmt::format("; {} facets without an area were left out", joined.lost_facets);
+    message += fmt::format("; {} without an area left out", counted(joined.lost_facets, "facet"));
   }
   Diagnostic note = warning("mesh-welded"_id, std::move(message));
   note.severity = Severity::note;

@@ -9,12 +9,12 @@
 
 #include "app/benchmark/benchmark_laws.hpp"
 #include "app/benchmark/benchmark_motion.hpp"
+#include "app/benchmark/benchmark_points.hpp"
 #include "app/job/job.hpp"
 #include "core/csv.hpp"
 #include "core/linear_algebra.hpp"
 #include "metrology/cmm.hpp"
 #include "metrology/plan/strategy.hpp"
-#include "metrology/points/point_file.hpp"
 #include "trials/surface_gain.hpp"
 #include "trials/trial.hpp"
 
@@ -162,22 +162,14 @@ class Baseline {
     if (!job) return job.error();
     const auto linear = linear_of(*job, piece, true);
     if (!linear) return linear.error();
-    const auto measured = metrology::read_feature_points(folder_ / piece / "points.csv");
+    const auto measured = planned_deviations(job->piece.plan, folder_ / piece / "points.csv");
     if (!measured) return measured.error();
     // A CMM's own lines of points share its errors: a few of them tell as much as all.
     constexpr Eigen::Index kMost = 600;
     const Eigen::Index every = std::max<Eigen::Index>(1, linear->offset.size() / kMost);
-    Eigen::Index row = 0;
-    for (const auto& feature : job->piece.plan.features) {
-      const auto planned = metrology::planned_points(feature);
-      const auto found =
-          std::ranges::find(*measured, feature.name, &metrology::FeaturePoints::feature);
-      for (std::size_t i = 0; i < planned.size(); ++i, ++row) {
-        if (found == measured->end() || i >= found->points.size() || row % every != 0) continue;
-        const double value =
-            kUmPerMm * (found->points[i] - planned[i].point).dot(planned[i].normal);
-        add_row(linear->gain.row(row), linear->offset[row], value, kPointNoise);
-      }
+    for (Eigen::Index row = 0; row < linear->offset.size(); row += every) {
+      const auto& value = (*measured)[static_cast<std::size_t>(row)];
+      if (value) add_row(linear->gain.row(row), linear->offset[row], *value, kPointNoise);
     }
     return std::nullopt;
   }
@@ -211,7 +203,12 @@ class Baseline {
   std::optional<Diagnostics> learn_motion(const std::string& test) {
     const auto table = CsvTable::load(folder_ / "motion" / (test + ".csv"), {});
     if (!table) return table.error();
-    const std::size_t first = table->columns().size() - 3;
+    std::array<std::size_t, 3> column{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto found = table->column(fmt::format("d{}_um", "xyz"[axis]));
+      if (!found) return found.error();
+      column[axis] = *found;
+    }
     std::vector<kinematics::AxisPositions> places;
     for (const CsvRow& row : table->rows()) {
       const auto q = axes_of(*table, row);
@@ -230,7 +227,7 @@ class Baseline {
       }
       const Eigen::MatrixXd gain = tip_gain(at);
       for (int axis = 0; axis < 3; ++axis) {
-        const auto value = table->number(table->rows()[i], first + static_cast<std::size_t>(axis));
+        const auto value = table->number(table->rows()[i], column[static_cast<std::size_t>(axis)]);
         if (!value) return value.error();
         add_row(gain.row(axis), 0.0, *value, kMotionNoise);
       }
@@ -339,6 +336,21 @@ class Baseline {
 };
 
 }  // namespace
+
+std::string baseline_method(std::string_view method) {
+  const std::string_view data = method == "prior" ? "none: the laws alone"
+                                : method == "all" ? "all pieces and both motion tests"
+                                                  : method;
+  return fmt::format(
+      "# Our own baseline\n\n"
+      "Data used: {}.\n\n"
+      "Made by `frustum benchmark baseline BENCHMARK --data {}`: linear Bayes with the laws as\n"
+      "prior. Gains are those of an error-free cut, to first order; a measured point has noise of\n"
+      "{:g} um, a motion test of {:g} um. Tool radius, drift and deflection of each piece are\n"
+      "unknowns; servo gains are not fitted. Of reversal the model knows what changes its sign\n"
+      "with it.\n",
+      data, method, kPointNoise, kMotionNoise);
+}
 
 Result<BaselineFiles> baseline_of(const fs::path& benchmark, const std::string& id,
                                   std::string_view method) {

@@ -27,6 +27,8 @@ inline constexpr std::array<std::string_view, 6> kBaselines{"prior",   "cone",  
 struct BaselineFiles {
   std::string predictions{}, errors{};
 };
+// What method.md of such a submission says.
+[[nodiscard]] std::string baseline_method(std::string_view method);
 // Of machine `id` of a benchmark's folder.
 [[nodiscard]] Result<BaselineFiles> baseline_of(const std::filesystem::path& benchmark,
                                                 const std::string& id, std::string_view method);

@@ -262,6 +262,25 @@ std::string kind_text(const char* name, const KindScore& s) {
                      value(s.interval_score_95), value(s.log_score), value(s.within_2sd));
 }
 
+// What everybody who ranks has to read: what was used, and how.
+std::optional<Diagnostic> method_missing(const fs::path& benchmark, const fs::path& submission) {
+  const fs::path file = submission / "method.md";
+  const auto text = read_whole_file(file);
+  if (text && text->find_first_not_of(" \t\r\n") != std::string::npos) return std::nullopt;
+  Diagnostic problem =
+      error("benchmark-method"_id, text ? "the method is not described" : "there is no method.md",
+            "write there which data were used (cone, steps, s-piece, motion or all) and how, as "
+            "rules.md asks");
+  problem.file = file.string();
+  // What is tried out elsewhere is scored all the same.
+  std::error_code failure;
+  const fs::path folder = fs::absolute(submission / "..", failure);
+  if (!fs::equivalent(folder, benchmark / "submissions", failure)) {
+    problem.severity = Severity::warning;
+  }
+  return problem;
+}
+
 }  // namespace
 
 Result<std::vector<MachineScore>> score_submission(const fs::path& benchmark,
@@ -278,6 +297,8 @@ Result<std::vector<MachineScore>> score_submission(const fs::path& benchmark,
                  "a benchmark's folder has answers/mNN.json of the machines that are revealed");
   }
   std::ranges::sort(ids);
+  const auto unsaid = method_missing(benchmark, submission);
+  if (unsaid && unsaid->severity == Severity::error) return *unsaid;
   std::vector<MachineScore> scores;
   for (const std::string& id : ids) {
     if (!fs::is_directory(submission / id, failure)) continue;
@@ -292,6 +313,7 @@ Result<std::vector<MachineScore>> score_submission(const fs::path& benchmark,
         fmt::format("for example {}/predictions.csv and errors.csv",
                     (submission / ids.front()).string()));
   }
+  if (unsaid) scores.front().notes.insert(scores.front().notes.begin(), *unsaid);
   return scores;
 }
 

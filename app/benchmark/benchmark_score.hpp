@@ -2,10 +2,12 @@
 //
 // Reads DIR/answers/mNN.json (true values of points, poses, errors), DIR/prior/mNN.csv (id,sd: the
 // standard deviation of the laws at each) and SUBMISSION/mNN/predictions.csv (id,mean_um,sd_um) and
-// errors.csv (name,mean,sd,unit), and nothing else.
+// errors.csv (name,mean,sd,unit), and nothing else but whether SUBMISSION/method.md says how they
+// were found.
 // Units : um, urad as the files say; errors count in units of the prior's standard deviation
 // Errors: an id or name that nobody asked for, one that is there twice, a standard deviation that
-//         is not above 0, an unknown unit: each with file, line and column. A row that is missing
+//         is not above 0, an unknown unit: each with file, line and column; a folder in
+//         DIR/submissions/ without method.md (elsewhere a warning). A row that is missing
 //         or not finite is no error: it counts ten times what the prior is expected to
 #pragma once
 

@@ -12,15 +12,25 @@
 
 namespace frustum::app {
 
+// Names of files are those below the benchmark's folder.
 struct VerifiedMachine {
   std::string id{};
   bool commitment_holds = false;
-  std::vector<std::string> differing{};  // files that the key makes otherwise, or not at all
-  [[nodiscard]] bool holds() const { return commitment_holds && differing.empty(); }
+  std::vector<std::string> differing{};   // files that the key makes otherwise, or that are missing
+  std::vector<std::string> unexpected{};  // files of the machine that the key does not make
+  [[nodiscard]] bool holds() const {
+    return commitment_holds && differing.empty() && unexpected.empty();
+  }
 };
 
-// Of each machine whose answers are there: all of them, or those named.
-[[nodiscard]] Result<std::vector<VerifiedMachine>> verify_benchmark(
-    const std::filesystem::path& benchmark, const std::vector<std::string>& only);
+struct VerifiedBenchmark {
+  std::vector<VerifiedMachine> machines{};
+  std::vector<std::string> unexpected{};  // in machines/, prior/, answers/ and of no machine
+  [[nodiscard]] bool holds() const;
+};
+
+// Of each machine whose answers are there: all of them, or those named, without what is of none.
+[[nodiscard]] Result<VerifiedBenchmark> verify_benchmark(const std::filesystem::path& benchmark,
+                                                         const std::vector<std::string>& only);
 
 }  // namespace frustum::app

@@ -109,26 +109,46 @@ int score(const BenchmarkOptions& options) {
   return kDone;
 }
 
+std::string verified_text(const VerifiedBenchmark& found) {
+  std::string text;
+  for (const VerifiedMachine& machine : found.machines) {
+    text +=
+        fmt::format("{}: commitment {}", machine.id, machine.commitment_holds ? "holds" : "BROKEN");
+    if (machine.differing.empty() && machine.unexpected.empty()) {
+      text += ", all files as the key makes them";
+    }
+    if (!machine.differing.empty()) {
+      text += fmt::format(", other than the key makes: {}", fmt::join(machine.differing, ", "));
+    }
+    if (!machine.unexpected.empty()) {
+      text += fmt::format(", not of the key: {}", fmt::join(machine.unexpected, ", "));
+    }
+    text += '\n';
+  }
+  if (!found.unexpected.empty()) {
+    text += fmt::format("of no machine: {}\n", fmt::join(found.unexpected, ", "));
+  }
+  return text;
+}
+
 int verify(const BenchmarkOptions& options) {
-  const auto machines = verify_benchmark(options.folder, options.only);
-  if (!machines) return refuse(machines.error(), options);
-  bool all = true;
+  const auto found = verify_benchmark(options.folder, options.only);
+  if (!found) return refuse(found.error(), options);
   ordered_json json{{"schema", "frustum/benchmark/1"}, {"machines", ordered_json::array()}};
-  for (const VerifiedMachine& machine : *machines) {
-    all = all && machine.holds();
+  for (const VerifiedMachine& machine : found->machines) {
     json["machines"].push_back({{"id", machine.id},
                                 {"commitment_holds", machine.commitment_holds},
                                 {"differing", machine.differing},
+                                {"unexpected", machine.unexpected},
                                 {"holds", machine.holds()}});
-    if (options.json || options.quiet) continue;
-    std::cout << fmt::format(
-        "{}: commitment {}, {}\n", machine.id, machine.commitment_holds ? "holds" : "BROKEN",
-        machine.differing.empty()
-            ? "all files as the key makes them"
-            : fmt::format("other than the key makes: {}", fmt::join(machine.differing, ", ")));
   }
-  if (options.json) std::cout << json.dump(2) << '\n';
-  return all ? kDone : kOutOfTolerance;
+  json["unexpected"] = found->unexpected;
+  if (options.json) {
+    std::cout << json.dump(2) << '\n';
+  } else if (!options.quiet) {
+    std::cout << verified_text(*found);
+  }
+  return found->holds() ? kDone : kOutOfTolerance;
 }
 
 // Our own predictions of the machines named, or of all that are there.
@@ -147,7 +167,8 @@ int baseline(const BenchmarkOptions& options) {
     files[entry.id + "/predictions.csv"] = std::move(made->predictions);
     files[entry.id + "/errors.csv"] = std::move(made->errors);
   }
-  if (files.empty()) {
+  files["method.md"] = baseline_method(options.method);
+  if (files.size() == 1) {
     return refuse(
         error("benchmark-machine"_id, fmt::format("{} has none of these machines", options.folder),
               "machines/mNN/ of the benchmark's folder"),

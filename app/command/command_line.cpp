@@ -197,11 +197,13 @@ Diagnostic usage_error(const CLI::App& program, const CLI::ParseError& problem) 
   }
   std::vector<std::string> known;
   for (const CLI::Option* each : at->get_options()) {
-    for (const std::string& name : each->get_lnames()) known.push_back("--" + name);
+    for (const std::string& name : each->get_lnames()) known.push_back(name);
   }
   for (const std::string& word : program.remaining(true)) {
-    const auto meant = nearest_word(word.substr(0, word.find('=')), known);
-    if (word.starts_with("--") && meant) near = fmt::format("did you mean {}? ", *meant);
+    if (!word.starts_with("--")) continue;
+    // Dashes are no letters: four that are right would let half of a short name be wrong.
+    const auto meant = nearest_word(word.substr(2, word.find('=') - 2), known);
+    if (meant) near = fmt::format("did you mean --{}? ", *meant);
   }
   return error("usage"_id, problem.what(), near + usage + " --help lists what there is");
 }

@@ -3,6 +3,7 @@
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "app/command/picture_option.hpp"
 #include "app/job/job_report.hpp"
 #include "app/view/console.hpp"
+#include "core/counted.hpp"
 #include "core/quantile.hpp"
 #include "core/units.hpp"
 #include "metrology/cmm.hpp"
@@ -20,8 +22,13 @@
 #include "report/picture/picture.hpp"
 #include "stock/mesh/io/mesh_file.hpp"
 #include "stock/mesh/io/mesh_reader.hpp"
+#include "stock/mesh/open_edges.hpp"
+#include "stock/mesh/weld_mesh.hpp"
 #include "stock/solid/mesh_alignment.hpp"
 #include "stock/solid/nominal_mesh.hpp"
+#ifdef FRUSTUM_WITH_STEP
+#include "stock/step/step_reader.hpp"
+#endif
 #include "trials/mesh_probe.hpp"
 
 namespace frustum::app {
@@ -34,7 +41,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t kBars = 20;
 
 struct CompareOptions : AnswerOptions {
-  std::string part{}, nominal{}, align = "none", plan{}, tolerance{}, mesh{}, picture{};
+  std::string part{}, nominal{}, align = "none", plan{}, tolerance{}, deflection{}, mesh{},
+                                 picture{};
 };
 
 struct Bar {
@@ -56,16 +64,28 @@ struct Comparison {
   [[nodiscard]] bool passes() const { return within >= 1.0; }
 };
 
-Result<SurfaceMesh> read_shape(const std::string& file) {
+bool is_step(const std::string& file) {
   const std::string ending = fs::path(file).extension().string();
-  for (const char* step : {".step", ".stp", ".STEP", ".STP"}) {
-    if (ending != step) continue;
-    Diagnostic failure =
-        error("not-built-in"_id, "this Frustum was built without a reader of STEP",
-              "export the model as a mesh: STL, PLY or OBJ, with a chord below the tolerance");
-    failure.file = file;
-    return failure;
-  }
+  constexpr std::array<std::string_view, 4> kEndings{".step", ".stp", ".STEP", ".STP"};
+  return std::ranges::find(kEndings, ending) != kEndings.end();
+}
+
+Result<SurfaceMesh> read_step_shape(const std::string& file, Mm deflection) {
+#ifdef FRUSTUM_WITH_STEP
+  return stock::read_step(file, deflection);
+#else
+  (void)deflection;
+  Diagnostic failure =
+      error("not-built-in"_id, "this Frustum was built without a reader of STEP",
+            "export the model as a mesh (STL, PLY or OBJ) with a chord below the tolerance, or "
+            "build with OpenCASCADE installed (scripts/setup --with-step)");
+  failure.file = file;
+  return failure;
+#endif
+}
+
+Result<SurfaceMesh> read_shape(const std::string& file, Mm deflection) {
+  if (is_step(file)) return read_step_shape(file, deflection);
   auto mesh = stock::read_mesh(file);
   if (mesh) return mesh;
   Diagnostics faults = std::move(mesh).error();
@@ -73,6 +93,45 @@ Result<SurfaceMesh> read_shape(const std::string& file) {
     if (d.file.empty()) d.file = file;
   }
   return faults;
+}
+
+// How far triangles may leave the faces of a STEP file.
+Result<Mm> deflection_of(const CompareOptions& options) {
+  constexpr double kUsual = 1e-3;  // mm
+  if (options.deflection.empty()) return Mm{kUsual};
+  if (!is_step(options.part) && !is_step(options.nominal)) {
+    return error("option-conflict"_id, "--deflection is of STEP files, and none is given",
+                 "leave it out: meshes are as fine as they are");
+  }
+  const auto deflection = parse_quantity(options.deflection);
+  if (!deflection || deflection->kind != UnitKind::length || !(deflection->value > 0.0)) {
+    return error(
+        "bad-deflection"_id,
+        fmt::format("--deflection {}: expected a length above 0 with its unit", options.deflection),
+        "for example --deflection 1um");
+  }
+  return Mm{deflection->value};
+}
+
+// A nominal shape says of every point whether it is inside.
+Result<SurfaceMesh> closed_shape(SurfaceMesh shape, const std::string& file) {
+  const auto refused = [&file](DiagnosticId id, std::string what, std::string hint) {
+    Diagnostic failure = error(id, std::move(what), std::move(hint));
+    failure.file = file;
+    return failure;
+  };
+  if (stock::open_edges(shape)) shape = stock::welded(std::move(shape)).mesh;
+  if (const auto open = stock::open_edges(shape)) {
+    return refused(
+        "mesh-open"_id,
+        fmt::format("the nominal shape is not closed: {} with no facet on the other side, the "
+                    "first from ({:.3f}, {:.3f}, {:.3f}) to ({:.3f}, {:.3f}, {:.3f}) mm",
+                    counted(open->count, "edge"), open->from.x(), open->from.y(), open->from.z(),
+                    open->to.x(), open->to.y(), open->to.z()),
+        "close the holes, and let all facets run counter-clockwise seen from outside: beside a "
+        "hole nothing says where the material is");
+  }
+  return shape;
 }
 
 // The mean of the facets at each corner, by their areas.
@@ -133,6 +192,13 @@ Result<Comparison> compared(const CompareOptions& options, SurfaceMesh& part, Su
     found.tolerance = tolerance->value;
   }
   const stock::FacetSolid nominal(std::move(shape.vertices), std::move(shape.triangles));
+  if (!(nominal.volume() > 0.0)) {
+    Diagnostic failure =
+        error("mesh-inside-out"_id, "the nominal shape is inside out",
+              "turn its facets so that they run counter-clockwise seen from outside");
+    failure.file = options.nominal;
+    return failure;
+  }
   found.nominal_facets = nominal.facets().size();
   found.aligned = options.align;
   const auto pose = aligned(options, part, nominal);
@@ -205,11 +271,12 @@ ordered_json json_of(const Comparison& c) {
 
 std::string text_of(const Comparison& c) {
   std::string text = fmt::format(
-      "{} vertices against {} facets, alignment {}\n"
+      "{} against {}, alignment {}\n"
       "deviation, um, above 0 where material is left:\n"
       "  lowest {:.3f}  highest {:.3f}  mean {:.3f}  rms {:.3f}  sd {:.3f}\n",
-      c.points, c.nominal_facets, c.aligned, c.lowest * kUmPerMm, c.highest * kUmPerMm,
-      c.mean * kUmPerMm, c.rms * kUmPerMm, c.sd * kUmPerMm);
+      counted(c.points, "vertex", "vertices"), counted(c.nominal_facets, "facet"), c.aligned,
+      c.lowest * kUmPerMm, c.highest * kUmPerMm, c.mean * kUmPerMm, c.rms * kUmPerMm,
+      c.sd * kUmPerMm);
   std::size_t most = 1;
   for (const Bar& bar : c.histogram) most = std::max(most, bar.count);
   constexpr std::size_t kWidth = 40;
@@ -262,9 +329,13 @@ int compare_meshes(const CompareOptions& options, const report::PictureOptions& 
                   options);
   }
   Result<SurfaceMesh> part{SurfaceMesh{}}, shape{SurfaceMesh{}};
-  tbb::parallel_invoke([&] { part = read_shape(options.part); },
-                       [&] { shape = read_shape(options.nominal); });
+  const auto deflection = deflection_of(options);
+  if (!deflection) return refuse(deflection.error(), options);
+  tbb::parallel_invoke([&] { part = read_shape(options.part, *deflection); },
+                       [&] { shape = read_shape(options.nominal, *deflection); });
   if (!part) return refuse(part.error(), options);
+  if (!shape) return refuse(shape.error(), options);
+  shape = closed_shape(*std::move(shape), options.nominal);
   if (!shape) return refuse(shape.error(), options);
   const auto found = compared(options, *part, *std::move(shape));
   if (!found) return refuse(found.error(), options);
@@ -302,7 +373,11 @@ void add_compare(Command& program) {
       program.command("compare", "Compare a part's mesh with its nominal shape: deviations");
   compare.option("part", o->part, "STL, PLY or OBJ of the part: a scan, or frustum cut --mesh")
       .required();
-  compare.option("nominal", o->nominal, "STL, PLY or OBJ of the closed nominal shape").required();
+  compare
+      .option("nominal", o->nominal,
+              "STL, PLY or OBJ of the closed nominal shape; STEP, where this Frustum is built with "
+              "OpenCASCADE")
+      .required();
   compare
       .option("--align", o->align,
               "none (default): as they lie; best-fit; datum: by the datum system of --plan")
@@ -311,6 +386,8 @@ void add_compare(Command& program) {
   compare.option("--tolerance", o->tolerance,
                  "To either side, with its unit (50um); the share within is told, and exit code 1 "
                  "says that it is not all");
+  compare.option("--deflection", o->deflection,
+                 "How far triangles may leave the faces of a STEP file, with its unit (1um)");
   compare.option("--mesh", o->mesh, "Writes the part with its deviations: .ply, .vtp");
   compare.option("--picture", o->picture, "Writes a PNG coloured by deviation");
   compare.option("--view", *view, "AZIMUTH,ELEVATION of the picture, deg");

@@ -20,6 +20,7 @@
 #include "app/job/trial_run.hpp"
 #include "app/view/console.hpp"
 #include "app/view/removal_csv.hpp"
+#include "core/counted.hpp"
 #include "core/whole_file.hpp"
 #include "report/picture/picture.hpp"
 #include "stock/mesh/decimate_surface.hpp"
@@ -183,7 +184,7 @@ class Cut {
     const auto ends = static_cast<std::uint32_t>(std::ranges::count(text, '\n'));
     const std::uint32_t lines = text.ends_with('\n') ? ends : ends + 1;
     if (line > lines) {
-      return error("out-of-range"_id, fmt::format("the program has {} lines", lines),
+      return error("out-of-range"_id, fmt::format("the program has {}", counted(lines, "line")),
                    "its lines are counted from 1");
     }
     return stock::after_line(path(), line);

@@ -1,4 +1,5 @@
-// frustum design: which step patterns to cut so that a machine's errors can be identified.
+// frustum design: which step patterns or test pieces to cut, and which motion tests to run, so that
+// a machine's errors can be identified.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,6 +27,7 @@ struct DesignOptions : AnswerOptions {
   std::vector<std::string> patterns{}, required{}, unknowns{};
   std::vector<std::string> known{}, limits{};
   std::string study{};
+  std::optional<double> hours{};
   std::string criterion = "d";
   std::string e0 = "0.5 um";
   double l_per_um = 600.0;
@@ -207,14 +209,20 @@ Diagnostics without_study(const DesignOptions& o) {
 int show_design(const DesignOptions& o) {
   if (!o.study.empty()) {
     if (const auto unused = without_study(o); !unused.empty()) return refuse(unused, o);
-    TestDesignWords words{o, o.study, o.required, o.limits, criterion_of(o)};
+    const TestDesignWords words{o, o.study, o.required, o.limits, o.hours, criterion_of(o)};
     return show_test_design(words);
   }
   if (o.machine.empty()) {
     return refuse(
         {error("missing-option"_id, "neither a machine nor a study is given",
-               "frustum design MACHINE for step patterns, --study FILE for motion tests")},
+               "frustum design MACHINE for step patterns, --study FILE for test pieces and motion "
+               "tests")},
         o);
+  }
+  if (o.hours) {
+    return refuse({error("conflicting-options"_id, "--hours goes with --study",
+                         "a study says which pieces and tests there are, and what they take")},
+                  o);
   }
   const auto machine = load_machine(o.machine, ".");
   if (!machine) return refuse(machine.error(), o);
@@ -245,14 +253,20 @@ int show_design(const DesignOptions& o) {
 
 void add_design(Command& program) {
   auto o = std::make_shared<DesignOptions>();
-  Command command = program.command("design",
-                                    "Which step patterns to cut, or motion tests to run, so that a "
-                                    "machine's errors can be separated");
+  Command command =
+      program.command("design",
+                      "Which step patterns or test pieces to cut, and motion tests to "
+                      "run, so that a machine's errors can be separated");
   command.option("machine,--machine", o->machine, "Machine file, or the name of a shipped machine");
   command.option(
       "--study", o->study,
-      "Choose from the motion tests of a study instead of step patterns: [[motion]] with test "
-      "and noise; unknowns and what is known are the study's");
+      "Choose from the test pieces and motion tests of a study instead of step patterns: [[part]] "
+      "with name and job, [[motion]] with test and noise; unknowns and what is known are the "
+      "study's");
+  command
+      .option("--hours", o->hours,
+              "With --study: the best set that takes no more hours at machine and CMM together")
+      .holds(positive_number());
   command.option("--patterns", o->patterns, "Choose from these only (default: all within travel)")
       .separated_by(',');
   command.option("--require", o->required, "In every set: these are cut anyway").separated_by(',');

@@ -11,6 +11,7 @@
 #include "app/job/machine_setup.hpp"
 #include "app/job/nc_file.hpp"
 #include "app/view/console.hpp"
+#include "core/counted.hpp"
 #include "core/whole_file.hpp"
 #include "parser/doubts.hpp"
 #include "parser/writing/motion_spelling.hpp"
@@ -105,8 +106,9 @@ int post_process(const PostOptions& options) {
   }
   print(std::cerr, warnings);
   if (options.quiet) return kDone;
-  std::cout << fmt::format("{}: {} lines, {} points inserted, {} rewinds\n", written->string(),
-                           program->source_lines.size(), plan->inserted, plan->rewinds);
+  std::cout << fmt::format("{}: {}, {} inserted, {}\n", written->string(),
+                           counted(program->source_lines.size(), "line"),
+                           counted(plan->inserted, "point"), counted(plan->rewinds, "rewind"));
   return kDone;
 }
 

@@ -16,6 +16,7 @@
 #include "app/study/study_report.hpp"
 #include "app/study/study_run.hpp"
 #include "app/study/study_statistics.hpp"
+#include "core/counted.hpp"
 #include "core/file_set.hpp"
 #include "core/whole_file.hpp"
 
@@ -152,7 +153,7 @@ class StudyCommand {
     const Interruption interruption;  // Stands before Ctrl-C is announced.
     if (work->merge.empty()) announce(run, *work, engine->result.name);
     drawing_since_ = now();
-    progress.begin(fmt::format("draw {} machines", study_.samples));
+    progress.begin("draw " + counted(study_.samples, "machine"));
     const auto end =
         run.run(*work, interruption, [&](const StudyProgress& state) { show(progress, state); });
     progress.end();
@@ -176,9 +177,9 @@ class StudyCommand {
     const auto seconds = run.estimate(work);
     if (!seconds || *seconds < kLongSeconds) return;
     std::cerr << fmt::format(
-        "frustum study: about {} to come ({} draws, engine {}); Ctrl-C ends it in good order, "
+        "frustum study: about {} to come ({}, engine {}); Ctrl-C ends it in good order, "
         "--resume goes on\n",
-        duration_text(*seconds), study_.samples, engine);
+        duration_text(*seconds), counted(study_.samples, "draw"), engine);
   }
 
   void show(report::Progress& progress, const StudyProgress& state) const {
@@ -194,9 +195,9 @@ class StudyCommand {
   int interrupted(const StudyEnd& end, const Interruption& interruption) const {
     if (ranks_.is_first() && !options_.quiet) {
       std::cerr << fmt::format(
-          "frustum study: interrupted; {} draws of this run are on disk; "
+          "frustum study: interrupted; {} of this run on disk; "
           "--resume goes on\n",
-          end.computed);
+          counted(end.computed, "draw"));
     }
     // Another rank may be the one that was interrupted.
     constexpr int kInterrupted = 130;

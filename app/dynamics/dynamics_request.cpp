@@ -10,6 +10,7 @@
 #include "app/job/axis_words.hpp"
 #include "app/job/number_list.hpp"
 #include "core/constants.hpp"
+#include "core/counted.hpp"
 
 namespace frustum::app {
 namespace {
@@ -32,8 +33,8 @@ Result<std::vector<double>> colon_numbers(std::string text, std::size_t least, s
                                           const std::string& what, const std::string& hint) {
   const auto count = 1U + static_cast<std::size_t>(std::ranges::count(text, ':'));
   if (count < least || count > most) {
-    return error("number-count"_id, fmt::format("{}: '{}' has {} numbers", what, text, count),
-                 hint);
+    return error("number-count"_id,
+                 fmt::format("{}: '{}' has {}", what, text, counted(count, "number")), hint);
   }
   std::ranges::replace(text, ':', ',');
   return numbers_of(text, count, what);

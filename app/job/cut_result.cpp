@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/job/job_report.hpp"
+#include "core/counted.hpp"
 #include "report/exchange/json_report.hpp"
 
 namespace frustum::app {
@@ -138,8 +139,8 @@ std::string surface_text(const CutResult& result) {
       s.measure.is_closed && s.measure.is_manifold ? "closed and manifold" : "NOT closed",
       s.measure.volume, result.blank_volume, removed_volume(result.blank_volume, s.measure.volume));
   if (s.deviations.points > 0) {
-    text += fmt::format("deviation {:.3f} .. {:.3f} um on {} vertices with a nominal\n",
-                        s.lowest * kUmPerMm, s.highest * kUmPerMm, s.deviations.points);
+    text += fmt::format("deviation {:.3f} .. {:.3f} um on {} with a nominal\n", s.lowest * kUmPerMm,
+                        s.highest * kUmPerMm, counted(s.deviations.points, "vertex", "vertices"));
   }
   if (s.faceted_within) {
     text += fmt::format("facets within {:g} um of the exact surface\n",
@@ -201,7 +202,7 @@ std::string cut_text(const CutResult& result) {
   text += report::machine_bodies_text(result.machine_bodies) + '\n';
   if (result.asked_point) text += originating_block_text(result);
   if (!result.snapshots.empty()) {
-    text += fmt::format("{} snapshots, {} to {}\n", result.snapshots.size(),
+    text += fmt::format("{}, {} to {}\n", counted(result.snapshots.size(), "snapshot"),
                         result.snapshots.front().file, result.snapshots.back().file);
   }
   if (result.removal) {

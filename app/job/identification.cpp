@@ -18,53 +18,6 @@ using calibration::Cause;
 using calibration::MeasuredPiece;
 using calibration::Unknown;
 
-// What the virtual CMM of a laboratory would be when nobody states one: only for asking which
-// further patterns would help.
-metrology::CmmModel ordinary_cmm() {
-  metrology::CmmModel cmm;
-  cmm.e0_mm = 0.5e-3;
-  cmm.length_per_error = 600.0;
-  return cmm;
-}
-
-void add_tool_radius(const Study& study, UnknownCauses& all) {
-  if (study.parts.empty()) return;
-  const trials::Parameter radius{std::string(trials::kToolRadius), false, std::nullopt};
-  const bool is_listed = std::any_of(all.unknowns.begin(), all.unknowns.end(),
-                                     [&](const Unknown& u) { return u.name == radius.name; });
-  if (study.tool_radius == ToolRadius::exact || is_listed) return;
-  if (study.tool_radius == ToolRadius::common) {
-    all.unknowns.push_back({.name = radius.name});
-    all.causes.push_back({radius, std::nullopt});
-    return;
-  }
-  for (std::size_t i = 0; i < study.parts.size(); ++i) {
-    all.unknowns.push_back({.name = fmt::format("{} of {}", radius.name, study.parts[i].name)});
-    all.causes.push_back({radius, i});
-  }
-}
-
-Result<std::vector<MeasuredPiece>> pieces_of(const Study& study) {
-  std::vector<MeasuredPiece> pieces;
-  for (const StudyPart& part : study.parts) {
-    const Job& job = part.job;
-    auto commanded = trials::command_piece(job.machine, job.piece);
-    if (!commanded) return commanded.error();
-    const auto base = trials::errors_for(job.machine, job.errors, job.piece, *commanded);
-    if (!base) return base.error();
-    MeasuredPiece piece{part.name,
-                        job.piece,
-                        *base,
-                        part.measured,
-                        study.cmm,
-                        path_options_of(job),
-                        std::make_shared<const trials::CommandedPiece>(*std::move(commanded))};
-    if (!piece.cmm && job.cmm.e0_mm > 0.0) piece.cmm = job.cmm;
-    pieces.push_back(std::move(piece));
-  }
-  return pieces;
-}
-
 // Which step patterns, not measured yet, would identify the rest; nothing when the machine cuts
 // none.
 Result<std::optional<Remedy>> remedy_for(const Study& study,
@@ -173,6 +126,51 @@ Result<calibration::Refinement> estimate(const Study& study,
 }
 
 }  // namespace
+
+metrology::CmmModel ordinary_cmm() {
+  metrology::CmmModel cmm;
+  cmm.e0_mm = 0.5e-3;
+  cmm.length_per_error = 600.0;
+  return cmm;
+}
+
+void add_tool_radius(const Study& study, UnknownCauses& all) {
+  if (study.parts.empty()) return;
+  const trials::Parameter radius{std::string(trials::kToolRadius), false, std::nullopt};
+  const bool is_listed = std::any_of(all.unknowns.begin(), all.unknowns.end(),
+                                     [&](const Unknown& u) { return u.name == radius.name; });
+  if (study.tool_radius == ToolRadius::exact || is_listed) return;
+  if (study.tool_radius == ToolRadius::common) {
+    all.unknowns.push_back({.name = radius.name});
+    all.causes.push_back({radius, std::nullopt});
+    return;
+  }
+  for (std::size_t i = 0; i < study.parts.size(); ++i) {
+    all.unknowns.push_back({.name = fmt::format("{} of {}", radius.name, study.parts[i].name)});
+    all.causes.push_back({radius, i});
+  }
+}
+
+Result<std::vector<MeasuredPiece>> pieces_of(const Study& study) {
+  std::vector<MeasuredPiece> pieces;
+  for (const StudyPart& part : study.parts) {
+    const Job& job = part.job;
+    auto commanded = trials::command_piece(job.machine, job.piece);
+    if (!commanded) return commanded.error();
+    const auto base = trials::errors_for(job.machine, job.errors, job.piece, *commanded);
+    if (!base) return base.error();
+    MeasuredPiece piece{part.name,
+                        job.piece,
+                        *base,
+                        part.measured,
+                        study.cmm,
+                        path_options_of(job),
+                        std::make_shared<const trials::CommandedPiece>(*std::move(commanded))};
+    if (!piece.cmm && job.cmm.e0_mm > 0.0) piece.cmm = job.cmm;
+    pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
 
 Result<UnknownCauses> unknown_causes(const kinematics::Machine& machine,
                                      const std::vector<std::string>& names,

@@ -40,6 +40,12 @@ struct UnknownCauses {
   std::vector<calibration::Unknown> unknowns{};
   std::vector<calibration::Cause> causes{};
 };
+// Radius errors of tools beside them, as the study says.
+void add_tool_radius(const Study& study, UnknownCauses& all);
+// The parts as they were cut, or will be.
+[[nodiscard]] Result<std::vector<calibration::MeasuredPiece>> pieces_of(const Study& study);
+// What a virtual CMM of a laboratory would be when nobody states one.
+[[nodiscard]] metrology::CmmModel ordinary_cmm();
 [[nodiscard]] Result<UnknownCauses> unknown_causes(const kinematics::Machine& machine,
                                                    const std::vector<std::string>& names,
                                                    const std::vector<KnownError>& known);

@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/counted.hpp"
+
 namespace frustum::app {
 namespace {
 
@@ -42,10 +44,10 @@ Result<std::vector<double>> parsed(const std::string& text, const std::string& w
 
 Result<std::vector<double>> numbers_of(const std::string& text, std::size_t count,
                                        const std::string& what) {
-  auto numbers = parsed(text, what, fmt::format("{} numbers", count));
+  auto numbers = parsed(text, what, counted(count, "number"));
   if (numbers && numbers->size() != count) {
-    return error("number-count"_id,
-                 fmt::format("{} has {} numbers, expected {}", what, numbers->size(), count));
+    return error("number-count"_id, fmt::format("{} has {}, expected {}", what,
+                                                counted(numbers->size(), "number"), count));
   }
   return numbers;
 }

@@ -26,12 +26,28 @@ bool is_planned(const metrology::InspectionPlan& plan, const std::string& charac
                              [&](const auto& c) { return c.name == characteristic; });
 }
 
-std::optional<StudyPart> read_part(const TomlTable& table, const fs::path& folder,
+// Hours of work, where they are stated.
+std::optional<double> read_hours(const TomlTable& table) {
+  if (!table.has("hours")) return std::nullopt;
+  return table.number("hours", Bound::positive);
+}
+
+// Of a part that nobody has measured yet: everything that the plan asks for.
+MeasuredPart as_planned(const metrology::InspectionPlan& plan) {
+  MeasuredPart part;
+  for (const auto& c : plan.characteristics) part[c.name] = MeasuredValue{};
+  return part;
+}
+
+std::optional<StudyPart> read_part(const TomlTable& table, const fs::path& folder, bool planned,
                                    Diagnostics& problems) {
   const std::string name = table.text("name");
   const std::string job_name = table.text("job");
   const std::vector<std::string> files = table.texts_or("measured", {});
-  if (files.empty()) {
+  const auto rows = static_cast<calibration::PlannedRows>(
+      table.choice_or("rows", {"characteristics", "points", "floating-points"}, 0));
+  const std::optional<double> hours = read_hours(table);
+  if (files.empty() && !planned) {
     table.fail("measured", "nothing-measured"_id, "no measured values",
                "measured = [\"part-1.toml\"]: .toml values, .json results or .csv points; several "
                "files are several parts of one kind");
@@ -46,11 +62,12 @@ std::optional<StudyPart> read_part(const TomlTable& table, const fs::path& folde
     append_all(problems, job.error());
     return std::nullopt;
   }
-  StudyPart part{name, *std::move(job), {}};
+  StudyPart part{name, *std::move(job), {}, rows, hours};
   // Surfaces tell their errors point by point.
   metrology::InspectionPlan& plan = part.job.piece.plan;
   plan = metrology::with_point_deviations(std::move(plan));
-  for (const std::string& file : files) {
+  if (planned) part.measured.push_back(as_planned(plan));
+  for (const std::string& file : planned ? std::vector<std::string>() : files) {
     if (auto measured = read_measured_part(folder / file, part.job.piece.plan)) {
       part.measured.push_back(*std::move(measured));
     } else {
@@ -156,7 +173,7 @@ struct Parts {
   }
 };
 
-Parts read_parts(const TomlDocument& document, const MotionReader& read_motion) {
+Parts read_parts(const TomlDocument& document, const MotionReader& read_motion, bool planned) {
   Parts found;
   const std::vector<TomlTable> tables = document.root().tables("part");
   std::vector<TomlTable> tests;
@@ -167,14 +184,17 @@ Parts read_parts(const TomlDocument& document, const MotionReader& read_motion) 
                          "traces");
   }
   for (const TomlTable& table : tests) {
+    const std::optional<double> hours = read_hours(table);
     if (auto motion = read_motion(table)) {
-      if (*motion) found.motions.push_back(**std::move(motion));
+      if (!*motion) continue;
+      found.motions.push_back(**std::move(motion));
+      found.motions.back().hours = hours;
     } else {
       append_all(found.problems, motion.error());
     }
   }
   for (const TomlTable& table : tables) {
-    if (auto part = read_part(table, document.folder(), found.problems)) {
+    if (auto part = read_part(table, document.folder(), planned, found.problems)) {
       found.parts.push_back(*std::move(part));
     }
   }
@@ -199,6 +219,18 @@ void read_uncertainty(const TomlTable& table, Study& study) {
     study.floor_length = floor->length_or("length", {}, Bound::non_negative).value;
     study.floor_angle = floor->angle_or("angle", {}, Bound::non_negative).value;
   }
+}
+
+// What work takes, by names that say their unit.
+void read_times(const TomlTable& table, calibration::WorkingTimes& times) {
+  const auto read = [&table](const char* key, double& time, double unit) {
+    time = table.number_or(key, time / unit, Bound::non_negative) * unit;
+  };
+  constexpr double kHoursPerMinute = 1.0 / 60.0;
+  read("piece_setup_min", times.piece_setup, kHoursPerMinute);
+  read("cmm_setup_min", times.cmm_setup, kHoursPerMinute);
+  read("touch_s", times.touch, 1.0);
+  read("test_setup_min", times.test_setup, kHoursPerMinute);
 }
 
 // Unknown errors are those listed, or all, and whatever is known of any besides.
@@ -229,7 +261,7 @@ void read_unknowns(const TomlTable& root, const kinematics::Machine& machine, St
 
 }  // namespace
 
-Result<Study> load_study(const fs::path& file, const MotionReader& read_motion) {
+Result<Study> load_study(const fs::path& file, const MotionReader& read_motion, bool planned) {
   auto document = TomlDocument::load(file);
   if (!document) return document.error();
   const TomlTable& root = document->root();
@@ -248,10 +280,11 @@ Result<Study> load_study(const fs::path& file, const MotionReader& read_motion) 
     no_study.file = file.string();
     return no_study;
   }
-  Parts parts = read_parts(*document, read_motion);
+  Parts parts = read_parts(*document, read_motion, planned);
   // Without a machine nothing else of the file can be judged.
   if (has_error(parts.problems) || parts.empty()) {
-    for (const char* key : {"title", "unknown", "known", "uncertainty", "method", "compare"}) {
+    for (const char* key :
+         {"title", "unknown", "known", "uncertainty", "method", "compare", "times"}) {
       (void)root.has(key);  // known, though not read
     }
     Diagnostics all = document->finish();
@@ -265,9 +298,13 @@ Result<Study> load_study(const fs::path& file, const MotionReader& read_motion) 
   check_machines(parts.machines(), root);
   study.parts = std::move(parts.parts);
   study.on = study.parts.empty() ? parts.motions.front().machine : study.parts.front().job.machine;
-  for (StudyMotion& each : parts.motions) study.motions.push_back(std::move(each.motion));
+  for (StudyMotion& each : parts.motions) {
+    study.motions.push_back(std::move(each.motion));
+    study.motion_hours.push_back(each.hours);
+  }
   read_unknowns(root, study.machine(), study);
   if (const auto table = root.table_if("uncertainty")) read_uncertainty(*table, study);
+  if (const auto table = root.table_if("times")) read_times(*table, study.times);
   if (const auto table = root.table_if("method")) {
     study.refine = table->boolean_or("refine", true);
     study.recipe =

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "app/job/job.hpp"
+#include "calibration/design/test_design.hpp"
 #include "calibration/identify/motion_observations.hpp"
 #include "calibration/identify/piece_observations.hpp"
 #include "core/result.hpp"
@@ -31,6 +32,9 @@ struct StudyPart {
   std::string name{};
   Job job;
   std::vector<MeasuredPart> measured{};
+  // What a design counts with.
+  calibration::PlannedRows rows = calibration::PlannedRows::characteristics;
+  std::optional<double> hours{};
 };
 
 struct KnownError {
@@ -52,6 +56,7 @@ enum class RecipeChoice { none, case_1, case_2 };  // of the step patterns' pape
 struct StudyMotion {
   kinematics::Machine machine;
   calibration::MeasuredMotion motion{};
+  std::optional<double> hours{};  // that a design counts with
 };
 // Reads such a table: it is known in a folder above this one. Nothing where the table itself is
 // wrong, which stays noted in its document.
@@ -62,6 +67,8 @@ struct Study {
   std::filesystem::path file{};
   std::vector<StudyPart> parts{};  // parts and tests: at least one, all on the same machine
   std::vector<calibration::MeasuredMotion> motions{};
+  std::vector<std::optional<double>> motion_hours{};  // of each, where it is stated
+  calibration::WorkingTimes times{};
   std::vector<std::string> unknowns{};
   std::vector<KnownError> known{};
   ToolRadius tool_radius = ToolRadius::common;
@@ -76,7 +83,8 @@ struct Study {
   [[nodiscard]] const kinematics::Machine& machine() const { return *on; }
 };
 
+// `planned`: parts may be without measured values, which then are those of the plan.
 [[nodiscard]] Result<Study> load_study(const std::filesystem::path& file,
-                                       const MotionReader& read_motion = {});
+                                       const MotionReader& read_motion = {}, bool planned = false);
 
 }  // namespace frustum::app

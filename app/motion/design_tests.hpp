@@ -1,10 +1,10 @@
-// frustum design --study: which motion tests of a study to run.
+// frustum design --study: which test pieces of a study to cut, and which motion tests to run.
 //
-// Units  : um and urad on the terminal and in the document
+// Units  : um, urad, h on the terminal and in the document
 // Errors : of the study; a limit of what is not unknown
 #pragma once
 
-#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +17,7 @@ struct TestDesignWords : AnswerOptions {
   std::string study{};
   std::vector<std::string> required{};
   std::vector<std::string> limits{};  // "EB0C=1urad"
+  std::optional<double> hours{};      // budget
   calibration::DesignCriterion criterion = calibration::DesignCriterion::d_optimal;
 };
 

@@ -188,6 +188,7 @@ Result<std::optional<StudyMotion>> read_motion(const TomlTable& table, bool plan
   if (entry.traces.empty() && !planned) {
     table.fail("traces", "nothing-measured"_id, "no measured readings",
                "traces = [\"trace.csv\"]: what frustum motion trace reads");
+    for (const char* key : {"noise", "ball"}) (void)table.has(key);  // known, though not read
     return std::optional<StudyMotion>{};
   }
   if (const std::string noise = table.text_or("noise", ""); !noise.empty()) {

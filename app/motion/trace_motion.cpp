@@ -8,6 +8,7 @@
 #include "app/motion/circle_report.hpp"
 #include "app/motion/line_motion.hpp"
 #include "app/motion/touch_report.hpp"
+#include "core/counted.hpp"
 #include "instruments/ball_maps.hpp"
 #include "instruments/chase_test.hpp"
 #include "instruments/touch_test.hpp"
@@ -178,8 +179,9 @@ Result<MotionAnswer> ball_trace(const TraceWords& words) {
     balls.push_back(*ball);
   }
   if (balls.size() != words.files.size()) {
-    return error("file-count"_id, fmt::format("{} balls and {} files: an R-test each", balls.size(),
-                                              words.files.size()));
+    return error("file-count"_id,
+                 fmt::format("{} and {}: an R-test each", counted(balls.size(), "ball"),
+                             counted(words.files.size(), "file")));
   }
   std::vector<std::vector<Vec3>> readings;
   for (std::size_t k = 0; k < balls.size(); ++k) {

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "app/view/text_table.hpp"
+#include "core/counted.hpp"
 #include "core/decimal.hpp"
 #include "instruments/turn_harmonics.hpp"
 
@@ -15,7 +16,7 @@ void add_turn_evaluation(MotionAnswer& answer, const std::string& angle_name,
                          const std::vector<double>& angles, const std::vector<double>& readings) {
   answer.document["evaluation"] = {};
   const auto [least, most] = std::ranges::minmax(readings);
-  answer.text += fmt::format("{} readings, {} .. {} um\n", readings.size(),
+  answer.text += fmt::format("{}, {} .. {} um\n", counted(readings.size(), "reading"),
                              fixed_decimal(least * kUmPerMm, 3), fixed_decimal(most * kUmPerMm, 3));
   answer.page.charts.push_back(
       {.title = "Reading of the bar",

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "app/study/sampler.hpp"
+#include "core/counted.hpp"
 #include "report/number_text.hpp"
 #include "report/page/study_page.hpp"
 #include "studies/statistics/conformity_risk.hpp"
@@ -153,10 +154,11 @@ void add_facts(StudyPage& page, const StudyFile& study, const StudyResult& resul
                 {"Engine", engine},
                 made_of(study)};
   if (!result.failed.empty()) {
-    page.remarks.push_back(fmt::format(
-        "{} draws failed and count as parts that do not conform; the "
-        "first, {}: {}",
-        result.failed.size(), result.failed.front().draw, result.failed.front().message));
+    page.remarks.push_back(
+        fmt::format("{} failed, counted as not conforming; the "
+                    "first, {}: {}",
+                    counted(result.failed.size(), "draw"), result.failed.front().draw,
+                    result.failed.front().message));
   }
   for (const std::string& what : result.not_reached) page.remarks.push_back("Not reached: " + what);
   if (result.joint) page.all_conform = proportion(*result.joint);

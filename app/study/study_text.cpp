@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/counted.hpp"
+
 #include "app/study/study_json.hpp"
 
 namespace frustum::app {
@@ -53,11 +55,12 @@ void add_risks(std::string& text, const studies::StudyResult& result) {
 }  // namespace
 
 std::string study_text(const studies::StudyResult& result) {
-  std::string text = fmt::format("{}: {} machines, seed {}, {}, engine {}", result.title,
-                                 result.samples, result.seed, result.scheme, result.engine.name);
+  std::string text = fmt::format("{}: {}, seed {}, {}, engine {}", result.title,
+                                 counted(result.samples, "machine"), result.seed, result.scheme,
+                                 result.engine.name);
   if (result.engine.name == "linear") {
-    text += fmt::format(" (within {:.3f} um of whole trials, by {} controls)",
-                        result.engine.bound_um, result.engine.controls);
+    text += fmt::format(" (within {:.3f} um of whole trials, by {})", result.engine.bound_um,
+                        counted(result.engine.controls, "control"));
   } else if (!result.engine.reason.empty()) {
     text += fmt::format(" ({})", result.engine.reason);
   }
@@ -91,11 +94,11 @@ std::string study_text(const studies::StudyResult& result) {
     text += fmt::format(" (cost {:.4g}, of one factor {:.4g})\n", a->cost, a->equal_cost);
   }
   for (const auto& row : result.map) {
-    text += fmt::format("cone {:g} deg, inclined {:g} deg: rms {:.3f} um, {} errors show\n",
+    text += fmt::format("cone {:g} deg, inclined {:g} deg: rms {:.3f} um, errors that show: {}\n",
                         row.cone_angle_deg, row.inclination_deg, row.rms_um, row.shown);
   }
   if (!result.failed.empty()) {
-    text += fmt::format("{} draws failed, the first ({}): {}\n", result.failed.size(),
+    text += fmt::format("{} failed, the first ({}): {}\n", counted(result.failed.size(), "draw"),
                         result.failed.front().draw, result.failed.front().message);
   }
   for (const std::string& what : result.not_reached) text += "not reached: " + what + "\n";

@@ -7,6 +7,7 @@
 
 #include "app/view/shown_unit.hpp"
 #include "app/view/text_table.hpp"
+#include "core/counted.hpp"
 
 namespace frustum::app {
 namespace {
@@ -40,11 +41,11 @@ std::string deviations_table(const StepDesign& design) {
   for (const StepChoice& c : design.best_of_size) {
     if (!c.choice.identifies_all) continue;
     choices.push_back(&c);
-    headings.push_back(fmt::format("{} patterns", c.patterns.size()));
+    headings.push_back(counted(c.patterns.size(), "pattern"));
   }
   if (choices.empty() && !design.best_of_size.empty()) {
     choices.push_back(&design.best_of_size.back());
-    headings.push_back(fmt::format("{} patterns", choices.back()->patterns.size()));
+    headings.push_back(counted(choices.back()->patterns.size(), "pattern"));
   }
   TextTable table(headings);
   for (std::size_t k = 0; k < design.unknowns.size(); ++k) {
@@ -80,8 +81,9 @@ Json choice_json(const StepDesign& design, const StepChoice& choice) {
 
 std::string design_text(const kinematics::Machine& machine, const StepDesign& design,
                         const std::vector<std::string>& exact, bool limited) {
-  std::string out = fmt::format("{}: {} unknowns, {} step patterns to choose from\n",
-                                machine.title(), design.free_unknowns, design.patterns.size());
+  std::string out = fmt::format("{}: {}, {} to choose from\n", machine.title(),
+                                counted(static_cast<std::size_t>(design.free_unknowns), "unknown"),
+                                counted(design.patterns.size(), "step pattern"));
   for (const auto& u : design.unreachable) out += fmt::format("  out: {}\n", u.reason);
   if (!design.left_out.empty()) {
     out += fmt::format("  left out, since no step pattern separates them from the others: {}\n",

@@ -9,6 +9,7 @@
 #include "app/view/shown_unit.hpp"
 #include "app/view/text_table.hpp"
 #include "calibration/identify/distributions.hpp"
+#include "core/counted.hpp"
 #include "report/number_text.hpp"
 
 namespace frustum::app {
@@ -147,11 +148,11 @@ std::string residual_table(const Study& study, const StudyResult& result) {
 std::string agreement_text(const StudyResult& result) {
   const auto& a = result.identification.agreement;
   if (!a.probability) return "\nNothing checks the estimates: no degrees of freedom are left.\n";
-  std::string out =
-      fmt::format("\nAgreement: chi2 {:.4g} with {} degrees of freedom, probability {:.2g}",
-                  a.chi_square, a.degrees_of_freedom, *a.probability);
+  std::string out = fmt::format(
+      "\nAgreement: chi2 {:.4g} with {} degree{} of freedom, probability {:.2g}", a.chi_square,
+      a.degrees_of_freedom, a.degrees_of_freedom == 1 ? "" : "s", *a.probability);
   if (!result.changes.empty()) {
-    out += fmt::format("; settled after {} runs of all parts", result.changes.size());
+    out += fmt::format("; settled after {} of all parts", counted(result.changes.size(), "run"));
   }
   return out + ".\n";
 }
@@ -309,10 +310,10 @@ std::string identification_text(const Study& study, const StudyResult& result) {
   const auto& identification = result.identification;
   std::size_t rows = 0;
   for (const auto& r : identification.residuals) rows += r.prior ? 0 : 1;
-  std::string out =
-      fmt::format("{}\n{}: {} measured characteristics on {}, {} unknowns\n\n",
-                  study.title.empty() ? study.file.string() : study.title, study.machine().title(),
-                  rows, sources_text(study), identification.observability.unknowns);
+  std::string out = fmt::format(
+      "{}\n{}: {} on {}, {}\n\n", study.title.empty() ? study.file.string() : study.title,
+      study.machine().title(), counted(rows, "measured characteristic"), sources_text(study),
+      counted(static_cast<std::size_t>(identification.observability.unknowns), "unknown"));
   out += estimates_table(study, result);
   out += combinations_text(study, result);
   if (!identification.diagnostics.empty() || !result.left_out.empty()) out += '\n';

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "core/counted.hpp"
 #include "core/linear_algebra.hpp"
 
 namespace frustum::calibration {
@@ -69,6 +70,15 @@ Diagnostics wrong_blocks(const Observations& observations, std::span<const Desig
                           fmt::format("{} limits for {} unknowns", options.limits.size(),
                                       observations.unknowns.size())));
   }
+  const bool is_priced = std::all_of(options.costs.begin(), options.costs.end(), [](double cost) {
+    return std::isfinite(cost) && cost >= 0.0;
+  });
+  if (!is_priced || (!options.costs.empty() && options.costs.size() != blocks.size())) {
+    found.push_back(
+        error("inconsistent-design"_id,
+              fmt::format("{} for {}, each 0 or more", counted(options.costs.size(), "cost"),
+                          counted(blocks.size(), "block"))));
+  }
   return found;
 }
 
@@ -124,8 +134,15 @@ class Enumeration {
 
   DesignResult run() const {
     DesignResult result;
-    result.unknowns = static_cast<int>(size_.size());
+    result.unknowns = static_cast<int>(places(true).size());
     for (int size = 1; size <= static_cast<int>(blocks_.size()); ++size) add_size(size, result);
+    for (std::size_t b = 0; b < blocks_.size(); ++b) result.alone.push_back(judged(1U << b));
+    for (std::vector<DesignChoice>* choices : {&result.best_of_size, &result.alone}) {
+      for (DesignChoice& choice : *choices) choice.bits = bits_of(choice);
+    }
+    for (std::optional<DesignChoice>* choice : {&result.smallest, &result.within_budget}) {
+      if (*choice) (*choice)->bits = bits_of(**choice);
+    }
     return result;
   }
 
@@ -194,6 +211,14 @@ class Enumeration {
         ++identifying;
         if (first_to_identify) result.smallest_identifying.push_back(choice.blocks);
       }
+      if (options_.budget && choice.cost <= *options_.budget) {
+        auto& within_budget = result.within_budget;
+        const bool is_first = !within_budget;
+        const bool is_better = !is_first && (choice.meets_limits == within_budget->meets_limits
+                                                 ? better(choice, *within_budget)
+                                                 : choice.meets_limits);
+        if (is_first || is_better) within_budget = choice;
+      }
       if (!best || better(choice, *best)) best = choice;
       if (choice.meets_limits && (!within || better(choice, *within))) within = choice;
     }
@@ -204,29 +229,86 @@ class Enumeration {
     if (!result.smallest) result.smallest = within;
   }
 
-  [[nodiscard]] DesignChoice judged(Set set) const {
-    const SymmetricEigen eigen = symmetric_eigen(information_of(set));
+  // Places among the free unknowns: those of interest, or the others.
+  [[nodiscard]] std::vector<Eigen::Index> places(bool of_interest) const {
+    std::vector<Eigen::Index> found;
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      const auto unknown = static_cast<std::size_t>(free_[k]);
+      const bool is_other = std::ranges::count(options_.no_interest, unknown) > 0;
+      if (is_other != of_interest) found.push_back(static_cast<Eigen::Index>(k));
+    }
+    return found;
+  }
+
+  [[nodiscard]] double bits_of(const DesignChoice& choice) const {
+    Set set = 0;
+    for (const std::size_t block : choice.blocks) set |= 1U << block;
     const Eigen::Index free = size_.size();
+    const std::vector<Eigen::Index> wanted = places(true);
+    const Eigen::MatrixXd after =
+        inverse_of(information_of(set) - priors_ + Eigen::MatrixXd::Identity(free, free));
+    double bits = 0.0;
+    for (const double left : symmetric_eigenvalues(after(wanted, wanted))) {
+      bits -= 0.5 * std::log2(std::clamp(left, 1e-300, 1.0));
+    }
+    return bits;
+  }
+
+  // What is left of the information for the unknowns of interest, the others being unknown too.
+  [[nodiscard]] Eigen::MatrixXd of_interest(const Eigen::MatrixXd& information) const {
+    const std::vector<Eigen::Index> others = places(false), wanted = places(true);
+    if (others.empty()) return information;
+    const SymmetricEigen eigen = symmetric_eigen(information(others, others));
+    const Eigen::MatrixXd cross = information(wanted, others) * eigen.vectors;
+    Eigen::MatrixXd left = information(wanted, wanted);
+    const double nothing = 1e-12 * std::max(eigen.values.maxCoeff(), 0.0);
+    for (Eigen::Index k = 0; k < eigen.values.size(); ++k) {
+      if (eigen.values[k] <= nothing) continue;  // no row answers to it
+      left -= cross.col(k) * cross.col(k).transpose() / eigen.values[k];
+    }
+    return left;
+  }
+
+  // Directions that are identified, and the variances that they leave.
+  struct Judgement {
+    int rank = 0;
+    Eigen::MatrixXd unidentified{};  // directions, columns
+    Eigen::VectorXd variances{};
+    double log_det = 0.0;
+  };
+  [[nodiscard]] static Judgement judgement(const Eigen::MatrixXd& information) {
+    const SymmetricEigen eigen = symmetric_eigen(information);
     const Eigen::VectorXd singular = eigen.values.reverse().cwiseMax(0.0).cwiseSqrt();
+    Judgement found{.rank = rank_of(singular)};
+    const Eigen::VectorXd identified = eigen.values.tail(found.rank);
+    const Eigen::MatrixXd v = eigen.vectors.rightCols(found.rank);
+    found.unidentified = eigen.vectors.leftCols(eigen.values.size() - found.rank);
+    found.variances = v.cwiseAbs2() * identified.cwiseInverse();
+    found.log_det = identified.array().log().sum();
+    return found;
+  }
+
+  [[nodiscard]] DesignChoice judged(Set set) const {
+    const Eigen::MatrixXd information = information_of(set);
+    const Judgement all = judgement(information);
+    const Judgement own = options_.no_interest.empty() ? all : judgement(of_interest(information));
     DesignChoice choice;
     choice.blocks = blocks_of(set);
-    choice.rank = rank_of(singular);
-    choice.identifies_all = choice.rank == free;
-    const Eigen::VectorXd identified = eigen.values.tail(choice.rank);
-    const Eigen::MatrixXd v = eigen.vectors.rightCols(choice.rank);
-    const Eigen::VectorXd variances = v.cwiseAbs2() * identified.cwiseInverse();
-    const double log_det = identified.array().log().sum();
-    if (choice.identifies_all) choice.log_det = log_det;
-    choice.criterion = criterion(log_det, variances);
+    if (!options_.costs.empty()) {
+      for (const std::size_t block : choice.blocks) choice.cost += options_.costs[block];
+    }
+    choice.rank = own.rank;
+    choice.identifies_all = own.rank == own.variances.size();
+    if (choice.identifies_all) choice.log_det = own.log_det;
+    choice.criterion = criterion(own.log_det, own.variances);
 
     choice.standard_deviations.assign(observations_.unknowns.size(), 0.0);
-    const std::vector<bool> seen =
-        identified_by(eigen.vectors.leftCols(free - choice.rank), variances);
-    for (Eigen::Index j = 0; j < free; ++j) {
+    const std::vector<bool> seen = identified_by(all.unidentified, all.variances);
+    for (Eigen::Index j = 0; j < size_.size(); ++j) {
       const auto k = static_cast<std::size_t>(j);
       auto& sd = choice.standard_deviations[static_cast<std::size_t>(free_[k])];
       sd.reset();
-      if (seen[k]) sd = size_[j] * std::sqrt(variances[j]);
+      if (seen[k]) sd = size_[j] * std::sqrt(all.variances[j]);
     }
     choice.meets_limits = choice.identifies_all && within_limits(choice);
     return choice;
@@ -246,7 +328,8 @@ class Enumeration {
 
   [[nodiscard]] bool within_limits(const DesignChoice& choice) const {
     for (std::size_t j = 0; j < options_.limits.size(); ++j) {
-      if (options_.limits[j] && !(*choice.standard_deviations[j] <= *options_.limits[j])) {
+      const auto& sd = choice.standard_deviations[j];
+      if (options_.limits[j] && !(sd && *sd <= *options_.limits[j])) {
         return false;
       }
     }
@@ -268,6 +351,7 @@ bool better(const DesignChoice& a, const DesignChoice& b) {
   if (a.rank != b.rank) return a.rank > b.rank;
   const double tie = 1e-9 * std::max(std::abs(a.criterion), std::abs(b.criterion));
   if (std::abs(a.criterion - b.criterion) > tie) return a.criterion < b.criterion;
+  if (a.cost != b.cost) return a.cost < b.cost;
   return a.blocks < b.blocks;
 }
 

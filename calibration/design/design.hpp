@@ -6,13 +6,19 @@
 //              d_optimal      largest log det, smallest volume of the joint uncertainty
 //              a_optimal      smallest sum of variances over expected sizes squared
 //              worst_unknown  smallest of the largest standard deviations over expected sizes
-//            Sets of higher rank go first; with a short rank only the directions identified count
+//            of the unknowns of interest, the others being unknown beside them.
+//            Sets of higher rank go first; with a short rank only the directions identified count.
+//            What a set tells, whatever its rank, is bits = - log2 det(C) / 2, C the unknowns of
+//            interest in (G^T S^+ G + 1)^-1: by how much it shrinks what is expected of them, their
+//            priors or their expected sizes
 // Units    : mm, rad; criteria dimensionless (log det a natural logarithm)
 // Shape    : every subset of at most kMostBlocks blocks
 // Errors   : those of weighted_system; too many blocks, rows outside the observations or in two
-//            blocks, unknown block in `required` or `exclusive`, limits of another size
-// Accuracy : exhaustive; sets equal to nine digits: the one whose blocks come first
-// Source   : Pukelsheim, Optimal Design of Experiments, chapter 6
+//            blocks, unknown block in `required` or `exclusive`, limits or costs of another size
+// Accuracy : exhaustive; sets equal to nine digits: the one that costs less, then the one whose
+//            blocks come first
+// Source   : Pukelsheim, Optimal Design of Experiments, chapter 6; bits: Lindley 1956, Ann. Math.
+//            Statist. 27(4)
 #pragma once
 
 #include <Eigen/Core>
@@ -47,11 +53,16 @@ struct DesignOptions {
   std::vector<std::pair<std::size_t, std::size_t>> needs{};      // the first only with the second
   // Largest standard deviation wanted, one an unknown; empty: none.
   std::vector<std::optional<double>> limits{};
+  std::vector<std::size_t> no_interest{};  // unknowns that nobody asks for: tool radii, balls
+  std::vector<double> costs{};     // of each block, 0 or more; empty: nothing costs anything
+  std::optional<double> budget{};  // that a set may cost
 };
 
 struct DesignChoice {
   std::vector<std::size_t> blocks{};
   int rank = 0;
+  double cost = 0.0;  // the sum of its blocks'
+  double bits = 0.0;
   bool identifies_all = false;
   bool meets_limits = false;        // and identifies all
   std::optional<double> log_det{};  // only if it identifies all
@@ -61,15 +72,20 @@ struct DesignChoice {
 };
 
 struct DesignResult {
-  int unknowns = 0;                             // free ones
+  int unknowns = 0;                             // free ones of interest
   std::vector<DesignChoice> best_of_size{};     // for each size that has an allowed set, ascending
   std::vector<std::size_t> identifying_sets{};  // of each of those sizes: how many identify all
   std::optional<DesignChoice> smallest{};  // fewest blocks that identify all and meet the limits
+  std::vector<DesignChoice> alone{};       // each block by itself, whatever is allowed
+  // Of the sets that cost no more than the budget the best that meets the limits, else the best;
+  // nothing: no budget, or nothing that it allows.
+  std::optional<DesignChoice> within_budget{};
   // All sets with the fewest blocks that identify all, limits or not, in the order of their blocks.
   std::vector<std::vector<std::size_t>> smallest_identifying{};
 };
 
-// Rank, then criterion (equal to nine digits counts as equal), then the order of the blocks.
+// Rank, then criterion (equal to nine digits counts as equal), then cost, then the order of the
+// blocks.
 [[nodiscard]] bool better(const DesignChoice& a, const DesignChoice& b);
 
 // The values of the observations are not used.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include "core/counted.hpp"
+
 namespace frustum::calibration {
 namespace {
 
@@ -24,8 +26,10 @@ Diagnostics wrong_sizes(const Observations& o) {
                               o.gain.rows(), o.gain.cols(), rows, unknowns))};
   }
   if (o.values.size() != rows) {
-    return {error("wrong-size"_id,
-                  fmt::format("{} values for {} characteristics", o.values.size(), rows))};
+    return {
+        error("wrong-size"_id,
+              fmt::format("{} for {}", counted(static_cast<std::size_t>(o.values.size()), "value"),
+                          counted(static_cast<std::size_t>(rows), "characteristic")))};
   }
   if (o.covariance.rows() != rows || o.covariance.cols() != rows) {
     return {error("covariance"_id, fmt::format("the covariance is {} x {} for {} characteristics",

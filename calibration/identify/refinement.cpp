@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/counted.hpp"
+
 namespace frustum::calibration {
 namespace {
 
@@ -73,8 +75,10 @@ Result<Refinement> refine(Observations observations, const Model& model,
   }
   const Eigen::VectorXd measured = observations.values;
   if (measured.size() != static_cast<Eigen::Index>(observations.rows.size())) {
-    return error("wrong-size"_id, fmt::format("{} values for {} characteristics", measured.size(),
-                                              observations.rows.size()));
+    return error(
+        "wrong-size"_id,
+        fmt::format("{} for {}", counted(static_cast<std::size_t>(measured.size()), "value"),
+                    counted(observations.rows.size(), "characteristic")));
   }
   Eigen::VectorXd x = start_of(observations);
   Refinement result;

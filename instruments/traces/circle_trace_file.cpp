@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/counted.hpp"
 #include "instruments/traces/trace_table.hpp"
 
 namespace frustum::instruments {
@@ -210,10 +211,11 @@ class TraceReader {
 
   void check(Sense sense, const std::vector<Sample>& samples) {
     if (samples.size() < 3) {
-      problems_.push_back(table_.placed(
-          error("too-few-samples"_id, fmt::format("the {} run has {} samples, expected 3 or more",
-                                                  name_of(sense), samples.size())),
-          samples.front().line));
+      problems_.push_back(
+          table_.placed(error("too-few-samples"_id,
+                              fmt::format("the {} run has {}, expected 3 or more", name_of(sense),
+                                          counted(samples.size(), "sample"))),
+                        samples.front().line));
       return;
     }
     std::vector<double> steps;

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "core/counted.hpp"
 #include "core/units.hpp"
 #include "instruments/traces/trace_table.hpp"
 
@@ -44,8 +45,8 @@ std::optional<Diagnostic> incomplete(const TraceTable& table, const ByTarget& up
       }
       if (values.size() == runs) continue;
       return table.placed(
-          error("too-few-runs"_id, fmt::format("target {:g} mm has {} runs {}, the first has {}",
-                                               target, values.size(), name, runs)),
+          error("too-few-runs"_id, fmt::format("target {:g} mm has {} {}, the first has {}", target,
+                                               counted(values.size(), "run"), name, runs)),
           table.header_line());
     }
   }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/counted.hpp"
 #include "core/decimal.hpp"
 #include "instruments/traces/trace_table.hpp"
 
@@ -50,7 +51,8 @@ Result<std::vector<Vec3>> read_pose_trace(const std::filesystem::path& file,
   }
   if (table->rows() != poses.size()) {
     return table->placed(
-        error("row-count"_id, fmt::format("{} rows for {} poses", table->rows(), poses.size())),
+        error("row-count"_id, fmt::format("{} for {}", counted(table->rows(), "row"),
+                                          counted(poses.size(), "pose"))),
         table->header_line());
   }
   std::vector<Vec3> readings;

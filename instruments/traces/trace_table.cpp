@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/counted.hpp"
 #include "core/spelling.hpp"
 #include "core/text_encoding.hpp"
 #include "core/text_words.hpp"
@@ -115,8 +116,9 @@ Result<TraceTable> TraceTable::parse(std::string_view text, const std::filesyste
     if (!is_header) {
       if (found.cells.size() != table.columns_.size()) {
         return table.placed(
-            error("number-count"_id, fmt::format("the row has {} fields, the header {}",
-                                                 found.cells.size(), table.columns_.size())),
+            error("number-count"_id,
+                  fmt::format("the row has {}, the header {}", counted(found.cells.size(), "field"),
+                              table.columns_.size())),
             line_number);
       }
       table.rows_.push_back(std::move(found));

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/constants.hpp"
+#include "core/counted.hpp"
 #include "core/spelling.hpp"
 #include "kinematics/errors/reference_axes.hpp"
 #include "kinematics/model/machine.hpp"
@@ -274,7 +275,7 @@ class Resolver {
   void refuse_undrawn() {
     const ErrorEntry& first = *undrawn_.front();
     const std::string others =
-        undrawn_.size() > 1 ? fmt::format(", nor {} others", undrawn_.size() - 1) : "";
+        undrawn_.size() > 1 ? ", nor " + counted(undrawn_.size() - 1, "other") : "";
     refuse(first,
            error("error-not-drawn"_id,
                  fmt::format("error {} = {}: the amount is a distribution and has not been drawn{}",

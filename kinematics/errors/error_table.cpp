@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/counted.hpp"
 #include "kinematics/errors/harmonic_order.hpp"
 #include "kinematics/errors/measured_errors.hpp"
 #include "kinematics/model/geometric_errors.hpp"
@@ -189,7 +190,8 @@ class ShapeReader {
     shape_.periodic = table_.boolean_or("periodic", false);
     if (positions.size() != values.size() || positions.size() < 2) {
       table_.fail("values", "error-table"_id,
-                  fmt::format("{} positions and {} values", positions.size(), values.size()),
+                  fmt::format("{} and {}", counted(positions.size(), "position"),
+                              counted(values.size(), "value")),
                   "give as many values as positions, at least two");
       return;
     }
@@ -234,8 +236,8 @@ class ShapeReader {
     }
     if (rows.size() != surface.first_positions.size()) {
       table_.fail("values", "wrong-size"_id,
-                  fmt::format("{} rows for {} positions of {}", rows.size(),
-                              surface.first_positions.size(), names[0]),
+                  fmt::format("{} for {} of {}", counted(rows.size(), "row"),
+                              counted(surface.first_positions.size(), "position"), names[0]),
                   "a row of values for each position of the first axis");
       return;
     }
@@ -256,7 +258,8 @@ class ShapeReader {
     }
     if (positions.size() != values.size() || positions.size() < 2) {
       table.fail("values", "error-table"_id,
-                 fmt::format("{} positions and {} values", positions.size(), values.size()),
+                 fmt::format("{} and {}", counted(positions.size(), "position"),
+                             counted(values.size(), "value")),
                  "give as many values as positions, at least two");
       return;
     }

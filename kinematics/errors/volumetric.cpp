@@ -14,8 +14,10 @@ namespace {
 
 std::optional<Diagnostic> problem_of(const Machine& machine, const VolumetricOptions& options) {
   if (options.grid < 2)
-    return error("volumetric-grid"_id, fmt::format("a grid of {} points an axis", options.grid),
-                 "2 or more");
+    return error(
+        "volumetric-grid"_id,
+        fmt::format("a grid of {} point{} an axis", options.grid, options.grid == 1 ? "" : "s"),
+        "2 or more");
   if (options.positions.empty()) return error("volumetric-grid"_id, "no position to look at");
   for (const HeldAxes& held : options.positions) {
     for (const auto& [letter, q] : held) {

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "core/counted.hpp"
 #include "core/whole_file.hpp"
 
 namespace frustum::kinematics {
@@ -91,9 +92,10 @@ Result<NumberTable> read_number_table(const std::filesystem::path& file) {
       continue;
     }
     if (cells.size() != table.columns.size()) {
-      return table.problem("number-table"_id, number, 1,
-                           fmt::format("{} values in a row, {} columns in the header", cells.size(),
-                                       table.columns.size()));
+      return table.problem(
+          "number-table"_id, number, 1,
+          fmt::format("{} in a row, {} in the header", counted(cells.size(), "value"),
+                      counted(table.columns.size(), "column")));
     }
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const std::string_view text = cells[i].text;

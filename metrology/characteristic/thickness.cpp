@@ -2,6 +2,7 @@
 // both sides have too much, each along its own normal, on average.
 #include <fmt/format.h>
 
+#include "core/counted.hpp"
 #include "metrology/characteristic/evaluators.hpp"
 #include "metrology/plan/nominal.hpp"
 
@@ -38,8 +39,8 @@ Result<Evaluated> evaluate_deviation(const Toleranced& what) {
   const std::size_t point = what.planned.point.value_or(0);
   if (point >= feature.points.size()) {
     return error("too-few-points"_id,
-                 fmt::format("'{}' has {} points, the plan asks for point {}",
-                             feature.planned->name, feature.points.size(), point),
+                 fmt::format("'{}' has {}, the plan asks for point {}", feature.planned->name,
+                             counted(feature.points.size(), "point"), point),
                  "points must be given in the order of the plan");
   }
   Evaluated out;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/counted.hpp"
 #include "core/linear_algebra.hpp"
 #include "metrology/fit/constraint_steps.hpp"
 
@@ -17,9 +18,10 @@ namespace {
 std::optional<Diagnostic> bad_weights(const std::vector<double>& weights, std::size_t points) {
   if (weights.empty()) return std::nullopt;
   if (weights.size() != points) {
-    return error("point-weights"_id,
-                 fmt::format("{} weights for {} points", weights.size(), points),
-                 "give one weight a point, or none");
+    return error(
+        "point-weights"_id,
+        fmt::format("{} for {}", counted(weights.size(), "weight"), counted(points, "point")),
+        "give one weight a point, or none");
   }
   for (std::size_t i = 0; i < weights.size(); ++i) {
     if (!(weights[i] >= 0.0) || !std::isfinite(weights[i])) {

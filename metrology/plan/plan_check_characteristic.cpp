@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/counted.hpp"
 #include "core/spelling.hpp"
 #include "metrology/fit/element.hpp"
 #include "metrology/plan/plan_check.hpp"
@@ -371,8 +372,8 @@ class CharacteristicCheck {
     const std::size_t count = planned_points(*features_.front()).size();
     if (c_.point && *c_.point < count) return;
     wrong("point",
-          c_.point ? fmt::format("'{}' has {} points, there is no point {}",
-                                 features_.front()->name, count, *c_.point)
+          c_.point ? fmt::format("'{}' has {}, there is no point {}", features_.front()->name,
+                                 counted(count, "point"), *c_.point)
                    : "a deviation is that of one point",
           "the first point is 0");
   }

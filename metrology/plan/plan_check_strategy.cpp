@@ -6,6 +6,7 @@
 #include <set>
 #include <type_traits>
 
+#include "core/counted.hpp"
 #include "metrology/fit/element.hpp"
 #include "metrology/plan/plan_check.hpp"
 #include "metrology/plan/strategy.hpp"
@@ -173,10 +174,10 @@ class StrategyCheck {
       all += std::max(points, 0);
     }
     if (!positive || s.points.size() < 2 || s.points.size() > 1000 || all < 5) {
-      wrong(
-          fmt::format("a sphere needs 2 or more circles with 5 or more points in all, "
-                      "planned are {} circles with {} points",
-                      s.points.size(), all));
+      wrong(fmt::format(
+          "a sphere needs 2 or more circles with 5 or more points in all, "
+          "planned are {} with {}",
+          counted(s.points.size(), "circle"), counted(static_cast<std::size_t>(all), "point")));
     }
     const auto lies_on_sphere = [](double polar) {
       return polar >= 0.0 && polar <= std::numbers::pi;
@@ -204,7 +205,8 @@ class StrategyCheck {
     if (s.points < 2) wrong(fmt::format("at least 2 points on a line, planned are {}", s.points));
     const std::size_t all = s.heights.size() * static_cast<std::size_t>(std::max(s.points, 0));
     if (!s.geometric.empty() && s.geometric.size() != all) {
-      wrong(fmt::format("geometric_um has {} values for {} points", s.geometric.size(), all));
+      wrong(fmt::format("geometric_um has {} for {}", counted(s.geometric.size(), "value"),
+                        counted(all, "point")));
     }
   }
 

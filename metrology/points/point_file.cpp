@@ -9,6 +9,7 @@
 #include <iterator>
 #include <unordered_map>
 
+#include "core/counted.hpp"
 #include "core/spelling.hpp"
 #include "core/text_encoding.hpp"
 #include "core/whole_file.hpp"
@@ -92,10 +93,10 @@ class PointReader {
       return fault("file-without-points"_id, 0, "the file holds no points",
                    "write one point x y z (mm) a line");
     if (count_ && *count_ != static_cast<double>(total)) {
-      return fault(
-          "point-count"_id, 0,
-          fmt::format("the first line announces {} points, the file holds {}", *count_, total),
-          "correct the count or leave the line out");
+      return fault("point-count"_id, 0,
+                   fmt::format("the first line announces {}, the file holds {}",
+                               counted(static_cast<std::size_t>(*count_), "point"), total),
+                   "correct the count or leave the line out");
     }
     return std::nullopt;
   }
@@ -262,7 +263,7 @@ class PointReader {
                    "decimals have a point");
     }
     return fault("point-columns"_id, words.back().column,
-                 fmt::format("{} columns, expected {}", words.size(), columns_.size()),
+                 fmt::format("{}, expected {}", counted(words.size(), "column"), columns_.size()),
                  fmt::format("a line holds {}", joined_columns()));
   }
 

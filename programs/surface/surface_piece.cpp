@@ -190,10 +190,8 @@ metrology::InspectionPlan plan_of(const SurfacePiece& piece, const std::vector<d
   return plan;
 }
 
-}  // namespace
-
-Result<TestPiece> surface_piece(const SurfacePiece& piece, const kinematics::Machine& machine,
-                                parser::Dialect dialect) {
+Result<TestPiece> piece_as_it_faces(const SurfacePiece& piece, const kinematics::Machine& machine,
+                                    parser::Dialect dialect) {
   if (const auto problem = check_surface(piece)) return *problem;
   const bool ruled = piece.surface.rows() == 2;
   const std::vector<double> passes =
@@ -239,6 +237,50 @@ Result<TestPiece> surface_piece(const SurfacePiece& piece, const kinematics::Mac
   settings.rotary_start = true;
   return write_posed_program(settings, {SurfacePath(piece).operation(passes)}, machine,
                              std::move(made), dialect);
+}
+
+// Why no tool gets there: it would have to come from below. Nothing: it comes from above somewhere.
+std::optional<Diagnostic> turned_over(const SurfacePiece& piece) {
+  const bool is_ruled = piece.surface.rows() == 2;
+  double highest = -1.0, u_there = 0.0, v_there = 0.0;
+  constexpr int kPlaces = 8;
+  for (int i = 0; i <= kPlaces; ++i) {
+    for (int j = 0; j <= kPlaces; ++j) {
+      const double u = static_cast<double>(i) / kPlaces, v = static_cast<double>(j) / kPlaces;
+      const SplinePoint p = piece.surface.at(u, v);
+      // A flank is milled along its rulings, a freeform surface from the side that is outside.
+      const double rises = is_ruled ? p.v.normalized().z() : p.normal().z();
+      if (rises <= highest) continue;
+      highest = rises;
+      u_there = u;
+      v_there = v;
+    }
+  }
+  if (!(highest < 0.0)) return std::nullopt;
+  if (is_ruled) {
+    return refused_number("surface-turned-over"_id, "net",
+                          fmt::format("row 1 is below row 0 everywhere (least at u = {:.3g}), and "
+                                      "the cutter's axis goes from row 0 to row 1",
+                                      u_there),
+                          "exchange the rows, and write the points of each the other way round, so "
+                          "that r_v x r_u still points out of the material");
+  }
+  return refused_number(
+      "surface-turned-over"_id, "net",
+      fmt::format("the surface is turned over: r_v x r_u, which points out of the material, points "
+                  "down everywhere (least at u = {:.3g}, v = {:.3g})",
+                  u_there, v_there),
+      "write the points of every row in the opposite order");
+}
+
+}  // namespace
+
+Result<TestPiece> surface_piece(const SurfacePiece& piece, const kinematics::Machine& machine,
+                                parser::Dialect dialect) {
+  auto made = piece_as_it_faces(piece, machine, dialect);
+  if (made || !piece.surface.has_normals()) return made;
+  if (const auto reason = turned_over(piece)) return *reason;
+  return made;
 }
 
 }  // namespace frustum::programs

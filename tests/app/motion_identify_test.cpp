@@ -294,6 +294,8 @@ TEST_F(MotionIdentifySystem, RefusesWhatCannotBeIdentified) {
   EXPECT_EQ(fault_of("s.toml"), "line-in-study");
   write("s.toml", "[[motion]]\ntest = \"XY/test.toml\"\n");
   EXPECT_EQ(fault_of("s.toml"), "nothing-measured");
+  write("s.toml", "[[motion]]\ntest = \"XY/test.toml\"\nnoise = \"0.3um\"\n");
+  EXPECT_EQ(run("identify s.toml").err.find("unknown key"), std::string::npos);
   write("s.toml", "[[motion]]\ntest = \"XY/no.toml\"\ntraces = [\"XY/trace.csv\"]\n");
   EXPECT_EQ(fault_of("s.toml"), "file-unreadable");
   write("s.toml", xy + "nois = \"1um\"\n");

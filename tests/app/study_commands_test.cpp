@@ -333,7 +333,7 @@ TEST_F(StudyCommandsSystem, SaysWhatOfAVolumetricStudyIsWrong) {
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
   };
-  told("--grid 1", "a grid of 1 points an axis");
+  told("--grid 1", "a grid of 1 point an axis");
   told("--grid 1000", "at most 41 points an axis");
   told("--axes A=1", "'A=1' is not an axis of machine iwf-bc");
   told("--axes B=200", "B = 200 is outside its travel -110 .. 110 deg");

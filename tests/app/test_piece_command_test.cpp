@@ -1,6 +1,8 @@
-// frustum program s-piece and surface, compare, benchmark: from the command line.
+// frustum program s-piece and surface, compare: from the command line.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <vector>
 
 #include "tests/app/command_line.hpp"
@@ -91,6 +93,104 @@ TEST_F(TestPieceSystem, IdentifySaysWhatTheSAloneDoesNotTell) {
   EXPECT_TRUE(dx_found) << found.out.substr(0, 2000);
 }
 
+TEST_F(TestPieceSystem, DesignChoosesPiecesAndMotionTestsUnderABudget) {
+  for (const char* piece :
+       {"cone --chord-tolerance 5", "s-piece --blocks 300", "contour --center=0,0,120"}) {
+    const std::string words = piece;
+    ASSERT_EQ(run("program " + words + " --machine zx-yac --quiet --out " +
+                  words.substr(0, words.find(' ')))
+                  .exit_code,
+              0);
+  }
+  ASSERT_EQ(run("motion chase --machine zx-yac --ball 80,30,60 --out r --at \"A=-80,C=0;A=-80,C=90;"
+                "A=-40,C=-30;A=-40,C=60;A=0,C=-120;A=0,C=0;A=0,C=120;A=40,C=-60;A=40,C=30\"")
+                .exit_code,
+            0);
+  write("plan.toml",
+        "[[part]]\nname = \"cone\"\njob = \"cone/job.toml\"\nrows = \"floating-points\"\n"
+        "[[part]]\nname = \"S\"\njob = \"s-piece/job.toml\"\n"
+        "[[part]]\nname = \"contour\"\njob = \"contour/job.toml\"\nhours = 1.5\n"
+        "[[motion]]\nname = \"R-test\"\ntest = \"r/test.toml\"\nnoise = \"0.3um\"\n"
+        "hours = 0.75\n"
+        "[uncertainty]\ncmm = { e0 = \"0.5 um\", l_per_um = 600 }\n"
+        "[times]\npiece_setup_min = 30\ncmm_setup_min = 30\ntouch_s = 3\n");
+  const Outcome outcome = run("design --study plan.toml --hours 3 --json");
+  ASSERT_NE(outcome.exit_code, 2) << outcome.err;
+  const json doc = json::parse(outcome.out);
+  EXPECT_EQ(doc["tests"], json::array({"cone", "S", "contour", "R-test"}));
+  EXPECT_NEAR(doc["items"]["contour"]["machine_hours"].get<double>() +
+                  doc["items"]["contour"]["cmm_hours"].get<double>(),
+              1.5, 1e-12);
+  // 294 touches, and what cutting takes.
+  EXPECT_NEAR(doc["items"]["S"]["cmm_hours"].get<double>(), 0.5 + 294 * 3.0 / 3600.0, 1e-9);
+  EXPECT_GT(doc["items"]["S"]["machine_hours"].get<double>(), 0.5 + 2 * 0.279 / 36.0);
+  for (const json& item : doc["items"]) EXPECT_GT(item["bits_per_hour"].get<double>(), 0.0);
+  EXPECT_LE(doc["within_budget"]["hours"].get<double>(), 3.0);
+  // More hours tell no less.
+  const json more = json::parse(run("design --study plan.toml --hours 6 --json").out);
+  EXPECT_GT(more["within_budget"]["bits"].get<double>(),
+            doc["within_budget"]["bits"].get<double>());
+  EXPECT_NE(run("design --study plan.toml --hours 0.5").out.find("Nothing that may be chosen"),
+            std::string::npos);
+  EXPECT_EQ(run("design --study plan.toml --hours 0").exit_code, 2);
+  EXPECT_EQ(run("design zx-yac --hours 3").exit_code, 2);
+  // The same file is refused as measurements: there are none.
+  EXPECT_EQ(run("identify plan.toml").exit_code, 2);
+}
+
+// The numbers of a row of docs/test-pieces.md that begins with `name`.
+std::vector<double> documented(const std::string& text, const std::string& name) {
+  const std::string begin = "\n| " + name + " |";
+  std::vector<double> numbers;
+  const auto at = text.find(begin, text.find("### Information per hour"));
+  if (at == std::string::npos) return numbers;
+  std::istringstream cells(
+      text.substr(at + begin.size(), text.find('\n', at + 1) - at - begin.size()));
+  for (std::string cell; std::getline(cells, cell, '|') && numbers.size() < 8;) {
+    numbers.push_back(std::strtod(cell.c_str(), nullptr));
+  }
+  return numbers;
+}
+
+TEST_F(TestPieceSystem, TheInformationPerHourIsAsDocumented) {
+  const fs::path source = FRUSTUM_SOURCE_DIR;
+  for (const char* example : {"which-piece", "r-test", "ballbar"}) {
+    fs::copy(source / "examples" / example, folder_ / example);
+  }
+  for (const char* words :
+       {"cone --out which-piece/cone", "step --workpiece 1 --out which-piece/steps-1",
+        "step --workpiece 2 --out which-piece/steps-2", "s-piece --out which-piece/s-piece",
+        "contour --out which-piece/contour"}) {
+    ASSERT_EQ(run(std::string("program ") + words + " --machine zx-yac --quiet").exit_code, 0)
+        << words;
+  }
+  const std::string text = read(source / "docs/test-pieces.md");
+  const json points = json::parse(run("design --study which-piece/plan.toml --json").out)["items"];
+  const json values =
+      json::parse(run("design --study which-piece/values.toml --json").out)["items"];
+  EXPECT_EQ(points.size(), 8U);
+  for (const auto& [item, name] : {std::pair{"cone", "cone"},
+                                   {"steps-1", "steps-1"},
+                                   {"steps-2", "steps-2"},
+                                   {"s-piece", "S"},
+                                   {"contour", "contouring"},
+                                   {"bar XY", "ball bar XY"},
+                                   {"bar C", "ball bar, C axis"},
+                                   {"R-test", "R-test, 30 poses"}}) {
+    const std::vector<double> row = documented(text, name);
+    ASSERT_EQ(row.size(), 8U) << name;
+    std::vector<double> found;
+    for (const char* key : {"machine_hours", "cmm_hours", "rank", "bits", "bits_per_hour"}) {
+      found.push_back(points[item][key].get<double>());
+    }
+    for (const char* key : {"rank", "bits", "bits_per_hour"}) {
+      found.push_back(values.contains(item) ? values[item][key].get<double>() : 0.0);
+    }
+    for (std::size_t k = 0; k < 8; ++k)
+      EXPECT_NEAR(row[k], found[k], k < 2 ? 0.006 : 0.06) << name << k;
+  }
+}
+
 TEST_F(TestPieceSystem, ASurfaceOfYourOwnIsCut) {
   std::string net = "row,x,y,z\n";
   for (int i = 0; i < 4; ++i) {
@@ -154,73 +254,106 @@ TEST_F(TestPieceSystem, CompareTellsDeviationsAndTheShareWithin) {
   EXPECT_EQ(run("compare part.obj nominal.obj --align datum").exit_code, 2);
 }
 
-TEST_F(TestPieceSystem, ABenchmarkIsMadeAgainBitForBit) {
-  write("keys", "m01 00112233445566778899aabbccddeeff\n");
-  const Outcome made = run("benchmark make --keys keys --out b --json");
-  ASSERT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_EQ(read(folder_ / "b/machines/m01/s-piece/job.toml").find("seed = 0"), std::string::npos);
-  const Outcome holds = run("benchmark verify b --json");
-  EXPECT_EQ(holds.exit_code, 0) << holds.out;
-  // The laws alone, and what was measured of a cone: better.
-  for (const char* data : {"prior", "cone", "motion"}) {
-    const std::string name = data;
-    ASSERT_EQ(run("benchmark baseline b --data " + name + " --out " + name + " --quiet").exit_code,
-              0);
+TEST_F(TestPieceSystem, CompareRefusesANominalShapeThatDoesNotClose) {
+  const std::string cube = cube_obj(0.0, 0.0);
+  write("part.obj", cube);
+  // Without its last facet.
+  write("open.obj", cube.substr(0, cube.rfind("f ")));
+  const Outcome open = run("compare part.obj open.obj --json");
+  EXPECT_EQ(open.exit_code, 2);
+  EXPECT_NE(open.err.find("open.obj: error: the nominal shape is not closed: 3 edges"),
+            std::string::npos)
+      << open.err;
+  EXPECT_NE(open.err.find("(20.000, 20.000, 0.000) to (20.000, 0.000, 20.000)"), std::string::npos)
+      << open.err;
+  // One facet against the others, and all of them.
+  std::string turned = cube;
+  turned.replace(turned.find("f 1 3 2"), 7, "f 1 2 3");
+  write("turned.obj", turned);
+  EXPECT_NE(run("compare part.obj turned.obj").err.find("not closed: 3 edges"), std::string::npos);
+  std::string inside_out = cube.substr(0, cube.find("f "));
+  std::istringstream facets(cube.substr(inside_out.size()));
+  for (std::string f, a, b, c; facets >> f >> a >> b >> c;) {
+    inside_out.append("f ").append(a).append(" ").append(c).append(" ").append(b).append("\n");
   }
-  const auto skill = [&](const std::string& name) {
-    const json scores = json::parse(run("benchmark score b " + name + " --json").out);
-    return scores["machines"][0]["points"]["skill"].get<double>();
-  };
-  EXPECT_LT(std::abs(skill("prior")), 1.0);
-  EXPECT_GT(skill("cone"), 0.5);
-  EXPECT_GT(skill("motion"), skill("cone"));
-  // What was committed to stays.
-  const std::string committed = read(folder_ / "b/commitments.json");
-  write("other", "m01 ff112233445566778899aabbccddeeff\n");
-  EXPECT_EQ(run("benchmark make --keys other --out b").exit_code, 2);
-  EXPECT_EQ(read(folder_ / "b/commitments.json"), committed);
-  // One byte more.
-  std::ofstream(folder_ / "b/machines/m01/cone/points.csv", std::ios::app) << "\n";
-  const Outcome differs = run("benchmark verify b --json");
-  EXPECT_EQ(differs.exit_code, 1);
-  EXPECT_EQ(json::parse(differs.out)["machines"][0]["differing"][0],
-            "machines/m01/cone/points.csv");
+  write("inside.obj", inside_out);
+  EXPECT_NE(run("compare part.obj inside.obj").err.find("inside out"), std::string::npos);
+  // Corners that each facet has for itself are one.
+  std::istringstream words(cube);
+  std::vector<std::string> corners;
+  std::string apart, own;
+  for (std::string kind, x, y, z; words >> kind >> x >> y >> z;) {
+    if (kind == "v") {
+      corners.push_back("v " + x + " " + y + " " + z + "\n");
+      continue;
+    }
+    const std::size_t first = static_cast<std::size_t>(std::ranges::count(apart, 'v')) + 1;
+    for (const std::string& corner : {x, y, z}) apart += corners.at(std::stoul(corner) - 1);
+    own += "f " + std::to_string(first) + " " + std::to_string(first + 1) + " " +
+           std::to_string(first + 2) + "\n";
+  }
+  write("apart.obj", apart + own);
+  EXPECT_EQ(run("compare part.obj apart.obj --quiet").exit_code, 0);
 }
 
-TEST_F(TestPieceSystem, ScoresRefuseRowsWithTheirPlace) {
-  write("b/answers/m01.json", R"({"points":{"q1":1.0,"q2":2.0},"poses":{},"errors":{"EX0C":3.0}})");
-  write("b/prior/m01.csv", "id,sd\nq1,3\nq2,3\nEX0C,15\n");
-  write("b/machines/m01/laws.csv", "name,unit,mean,sd\nEX0C,um,0,15\n");
-  write("s/m01/errors.csv", "name,mean,sd,unit\nEX0C,3,1,um\n");
-  const auto scored = [&](const std::string& rows) {
-    write("s/m01/predictions.csv", "id,mean_um,sd_um\n" + rows);
-    return run("benchmark score b s --json");
-  };
-  const Outcome good = scored("q1,1,1\nq2,2,1\n");
-  ASSERT_EQ(good.exit_code, 0) << good.err;
-  EXPECT_NEAR(json::parse(good.out)["machines"][0]["points"]["crps"].get<double>(),
-              std::sqrt(2.0 / M_PI) - 1.0 / std::sqrt(M_PI), 1e-9);
-  // Missing, or not finite: ten times the prior's.
-  for (const char* rows : {"q1,1,1\n", "q1,1,1\nq2,nan,1\n"}) {
-    const Outcome short_of = scored(rows);
-    ASSERT_EQ(short_of.exit_code, 0) << short_of.err;
-    const json points = json::parse(short_of.out)["machines"][0]["points"];
-    EXPECT_EQ(points["missing"], 1);
-    const double own = std::sqrt(2.0) - 1.0;
-    EXPECT_NEAR(points["skill"].get<double>(), 1.0 - (own + 30.0) / 6.0, 1e-9);
+std::string net_csv(int rows, bool turned_over) {
+  std::string net = "row,x,y,z\n";
+  for (int i = 0; i < rows; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      const int x = turned_over ? 12 * j - 16 : 20 - 12 * j;
+      net += std::to_string(i) + "," + std::to_string(x) + "," + std::to_string(12 * i - 18) + "," +
+             std::to_string(rows == 2 ? 30 * i : 0) + "\n";
+    }
   }
-  for (const auto& [rows, place] : {std::pair{"q1,1,0\n", "predictions.csv:2:6"},
-                                    {"q1,1,1\nq9,1,1\n", "predictions.csv:3:1"},
-                                    {"q1,1,1\nq1,1,1\n", "predictions.csv:3:1"},
-                                    {"q1,one,1\n", "predictions.csv:2:4"}}) {
-    const Outcome bad = scored(rows);
-    EXPECT_EQ(bad.exit_code, 2) << rows;
-    EXPECT_NE(bad.err.find(place), std::string::npos) << bad.err;
+  return net;
+}
+
+TEST_F(TestPieceSystem, ASurfaceRefusesWordsThatItDoesNotUse) {
+  write("ball.csv", net_csv(4, false));
+  write("flank.csv", net_csv(2, false));
+  const struct {
+    const char* words;
+    const char* option;
+  } unused[] = {{"--net flank.csv --cusp 5", "--cusp"},
+                {"--net flank.csv --lead 10", "--lead"},
+                {"--net ball.csv --method balanced", "--method"}};
+  for (const auto& each : unused) {
+    const Outcome refused =
+        run(std::string("program surface --machine zx-yac --out f ") + each.words);
+    EXPECT_EQ(refused.exit_code, 2) << each.words;
+    EXPECT_NE(refused.err.find(std::string("error: ") + each.option + " is of a"),
+              std::string::npos)
+        << refused.err;
   }
-  write("s/m01/errors.csv", "name,mean,sd,unit\nEX0C,3,1,urad\n");
-  EXPECT_NE(scored("q1,1,1\n").err.find("errors.csv:2:10"), std::string::npos);
-  write("keys", "m99 00112233445566778899aabbccddeeff\n");
-  EXPECT_NE(run("benchmark make --keys keys --out c").err.find("keys:1"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder_ / "f/job.toml"));
+}
+
+TEST_F(TestPieceSystem, ASurfaceThatIsTurnedOverSaysSo) {
+  write("over.csv", net_csv(4, true));
+  const Outcome over = run("program surface --machine zx-yac --net over.csv --blocks 60 --out f");
+  EXPECT_EQ(over.exit_code, 2);
+  EXPECT_NE(over.err.find("turned over"), std::string::npos) << over.err;
+  EXPECT_NE(over.err.find("opposite order"), std::string::npos) << over.err;
+  write("right.csv", net_csv(4, false));
+  EXPECT_EQ(run("program surface --machine zx-yac --net right.csv --blocks 60 --cusp 50 --out f")
+                .exit_code,
+            0);
+  std::string rows = net_csv(2, false);
+  for (std::size_t at = 0; (at = rows.find(",30\n", at)) != std::string::npos; at += 5) {
+    rows.replace(at, 4, ",-30\n");
+  }
+  write("down.csv", rows);
+  const Outcome down = run("program surface --machine zx-yac --net down.csv --blocks 60 --out g");
+  EXPECT_EQ(down.exit_code, 2);
+  EXPECT_NE(down.err.find("exchange the rows"), std::string::npos) << down.err;
+}
+
+TEST_F(TestPieceSystem, NothingIsMeantThatIsHalfWrong) {
+  const Outcome form = run("program contour --machine zx-yac --form axes --out c");
+  EXPECT_EQ(form.exit_code, 2);
+  EXPECT_EQ(form.err.find("did you mean"), std::string::npos) << form.err;
+  EXPECT_NE(run("program contour --machine zx-yac --siz 80 --out c").err.find("mean --size?"),
+            std::string::npos);
 }
 
 }  // namespace

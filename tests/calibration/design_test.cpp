@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "calibration/identify/identification.hpp"
 #include "tests/calibration/step_patterns.hpp"
@@ -171,6 +172,93 @@ TEST(StepDesign, KeepsLimitsExclusionsAndPriors) {
     if (unknown.name == "dx_AY") unknown.fixed = 0.0;
   }
   EXPECT_LE(design(o, blocks)->smallest->blocks.size(), 2U);
+}
+
+// What a set of blocks tells, by an identification of its own: rank, and log det where complete.
+struct Told {
+  bool is_complete = false;
+  double log_det = 0.0;
+};
+Told told_by(const Observations& o, std::span<const DesignBlock> blocks, unsigned set) {
+  std::vector<Eigen::Index> rows;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if ((set >> b & 1U) == 0) continue;
+    rows.insert(rows.end(), blocks[b].rows.begin(), blocks[b].rows.end());
+  }
+  const auto fit = identify(o.selected(rows));
+  Told told;
+  if (!fit) return told;
+  told.is_complete = fit->observability.complete();
+  for (const double s : fit->observability.singular_values) told.log_det += 2.0 * std::log(s);
+  return told;
+}
+
+TEST(StepDesign, TheChoiceUnderABudgetIsThatOfSearchingEverySet) {
+  for (const Observations& o : {planned(all_patterns()), correlated()}) {
+    const std::vector<DesignBlock> all = blocks_of(o);
+    const std::vector<DesignBlock> blocks{all[0], all[1], all[2], all[4], all[5], all[10]};
+    const std::vector<double> costs{1.5, 0.9, 1.1, 2.0, 0.4, 0.8};
+    std::size_t complete = 0;
+    for (const double budget : {0.3, 1.0, 2.0, 2.4, 3.5, 4.4, 6.0, 10.0}) {
+      DesignOptions options;
+      options.costs = costs;
+      options.budget = budget;
+      const auto result = design(o, blocks, options);
+      ASSERT_TRUE(result);
+      std::optional<std::pair<double, unsigned>> best;
+      for (unsigned set = 1; set < 64; ++set) {
+        double cost = 0.0;
+        for (std::size_t b = 0; b < 6; ++b) cost += (set >> b & 1U) != 0 ? costs[b] : 0.0;
+        if (cost > budget) continue;
+        const Told told = told_by(o, blocks, set);
+        if (told.is_complete && (!best || told.log_det > best->first)) best = {told.log_det, set};
+      }
+      if (!best) {
+        EXPECT_TRUE(!result->within_budget || !result->within_budget->identifies_all) << budget;
+        continue;
+      }
+      ++complete;
+      ASSERT_TRUE(result->within_budget) << budget;
+      unsigned chosen = 0;
+      double cost = 0.0;
+      for (const std::size_t b : result->within_budget->blocks) {
+        chosen |= 1U << b;
+        cost += costs[b];
+      }
+      EXPECT_EQ(chosen, best->second) << budget;
+      EXPECT_NEAR(*result->within_budget->log_det, best->first, 1e-7 * std::abs(best->first));
+      EXPECT_NEAR(result->within_budget->cost, cost, 1e-12);
+      EXPECT_LE(cost, budget);
+    }
+    EXPECT_GE(complete, 3U);
+    EXPECT_LT(complete, 8U);
+  }
+  Observations o = planned(all_patterns());
+  DesignOptions options;
+  options.costs = {1.0, -1.0};
+  EXPECT_FALSE(design(o, blocks_of(o), options));
+}
+
+TEST(StepDesign, BitsAreWhatIsToldOfTheUnknownsOfInterest) {
+  Observations o;
+  o.unknowns = {{"p", false, {}, {}}, {"q", false, Prior{0.0, 0.015}, {}}};
+  o.rows = {{"sum", "A", false}, {"p", "B", false}};
+  o.gain = Eigen::MatrixXd::Ones(2, 2);
+  o.gain(1, 1) = 0.0;
+  o.covariance = Eigen::MatrixXd::Identity(2, 2) * 1e-6;
+  const std::vector<DesignBlock> blocks{{"A", {0}}, {"B", {1}}};
+  const double a = 15.0 * 15.0;  // what is expected over the noise, squared
+  auto result = design(o, blocks);
+  ASSERT_TRUE(result);
+  EXPECT_NEAR(result->alone[0].bits, 0.5 * std::log2(1.0 + 2.0 * a), 1e-9);
+  EXPECT_NEAR(result->alone[1].bits, 0.5 * std::log2(1.0 + a), 1e-9);
+  // Of p alone the sum tells half a bit, whatever its noise.
+  DesignOptions options;
+  options.no_interest = {1};
+  result = design(o, blocks, options);
+  ASSERT_TRUE(result);
+  EXPECT_NEAR(result->alone[0].bits, 0.5 * std::log2((1.0 + 2.0 * a) / (1.0 + a)), 1e-9);
+  EXPECT_NEAR(result->alone[1].bits, 0.5 * std::log2(1.0 + a), 1e-9);
 }
 
 TEST(StepDesign, CountsSharedReferencesOnce) {

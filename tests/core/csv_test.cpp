@@ -24,7 +24,7 @@ TEST(Csv, SaysWhatIsWrongAndWhere) {
     return table ? std::string() : to_string(table.error().front());
   };
   EXPECT_TRUE(fault("a,c\n1,2\n").starts_with("t.csv:1:1: error: the header is a,c"));
-  EXPECT_TRUE(fault("a,b\n1\n").starts_with("t.csv:2:1: error: 1 fields, the header has 2"));
+  EXPECT_TRUE(fault("a,b\n1\n").starts_with("t.csv:2:1: error: 1 field, the header has 2"));
   EXPECT_TRUE(fault("a,b\n1, \"2\n").starts_with("t.csv:2:4: error: this quote is not closed"));
   EXPECT_TRUE(fault("").starts_with("t.csv:1:1: error: the file has no header"));
   const auto table = CsvTable::parse("a,b\n1,nan\n2,x\n3,\n", "t.csv", {"a", "b"});

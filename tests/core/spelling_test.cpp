@@ -21,6 +21,11 @@ TEST(NearestWord, ForgivesAThirdOfTheLetters) {
   EXPECT_EQ(nearest_word("radius_eror", keys()), "radius_error");
 }
 
+TEST(NearestWord, CountsLettersThatChangedPlacesOnce) {
+  EXPECT_EQ(nearest_word("axse", std::vector<std::string>{"axes"}), "axes");
+  EXPECT_EQ(nearest_word("form", std::vector<std::string>{"bore"}), std::nullopt);
+}
+
 TEST(NearestWord, IgnoresCase) {
   EXPECT_EQ(nearest_word("DIAMETER", keys()), "diameter");
   EXPECT_EQ(nearest_word("ex0c", std::vector<std::string>{"EX0B", "EX0C"}), "EX0C");

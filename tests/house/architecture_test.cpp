@@ -45,6 +45,7 @@ std::vector<Confined> confined_headers() {
       entry("Boost.Spirit", "boost/(spirit|fusion|phoenix)/.*",
             "parser/reading/rs274/grammar\\.cpp"),
       entry("CGAL", "CGAL/.*", "stock/polyhedral/[a-z0-9_]*\\.cpp"),
+      entry("OpenCASCADE", ".*\\.hxx", "stock/step/step_reader\\.cpp|tests/stock/step_.*"),
       entry("OpenMesh", "OpenMesh/.*", ".*\\.cpp|stock/mesh/open_mesh\\.hpp"),
       entry("Embree", "embree[0-9]/.*",
             "stock/solid/box_scene\\.cpp|report/picture/surface_rays\\.cpp"),

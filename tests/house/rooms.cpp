@@ -18,7 +18,7 @@ const std::map<std::string, Room>& rooms() {
       {"post", {4, {"planning", "comparing"}}},
       {"lint", {4}},
       {"cutter", {4, {"body", "sweep", "search"}}},
-      {"stock", {5, {"solid", "dexel", "mesh", "collision", "proof", "polyhedral"}}},
+      {"stock", {5, {"solid", "dexel", "mesh", "collision", "proof", "polyhedral", "step"}}},
       {"programs", {6, {"milling", "cone", "step", "contour", "s_piece", "surface", "motion"}}},
       {"report", {6, {"html", "chart", "picture", "page", "exchange", "sheet"}}},
       {"trials", {7, {"population"}}},

@@ -170,7 +170,7 @@ TEST(MeasuredErrors, NameFileLineAndColumnOfAMistake) {
   EXPECT_EQ(problem("X_deg,EXX_um\n0,0\n1,1\n"), "1:1 the position of X must be a length");
   EXPECT_EQ(problem("X_mm,EXX_um\n0,0\n10,1\n10,2\n"), "4:1 the positions do not increase");
   EXPECT_EQ(problem("X_mm,EXX_um\n0,0\n10, 1x\n"), "3:5 '1x' is not a number");
-  EXPECT_EQ(problem("X_mm,EXX_um\n0,0\n10\n"), "3:1 1 values in a row, 2 columns in the header");
+  EXPECT_EQ(problem("X_mm,EXX_um\n0,0\n10\n"), "3:1 1 value in a row, 2 columns in the header");
   EXPECT_EQ(problem(""), "1:0 the file has no header");
 }
 

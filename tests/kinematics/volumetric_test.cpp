@@ -78,7 +78,7 @@ TEST(Volumetric, SaysWhatCannotBeLookedAt) {
     const auto volume = volumetric_errors(machine, {}, options);
     return volume ? std::string("accepted") : volume.error().front().message;
   };
-  EXPECT_EQ(message({.grid = 1}), "a grid of 1 points an axis");
+  EXPECT_EQ(message({.grid = 1}), "a grid of 1 point an axis");
   EXPECT_EQ(message({.positions = {{{A, 0.1}}}}),
             "machine iwf-bc (t-(C)-Z-Y-b-X-B-C-w) has no axis A");
   EXPECT_EQ(message({.positions = {{{X, 1000.0}}}}),

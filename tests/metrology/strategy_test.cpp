@@ -155,7 +155,7 @@ TEST(Strategy, NamesWhatIsImpossible) {
             "376.992 mm");
   EXPECT_EQ(complaint(sphere, SphereStrategy{{1, 0}}),
             "error: feature[1].strategy: a sphere needs 2 or more circles with 5 or more points in "
-            "all, planned are 2 circles with 1 points");
+            "all, planned are 2 circles with 1 point");
   EXPECT_EQ(complaint(sphere, SphereStrategy{{1, 4}, 0.0, 4.0}),
             "error: feature[1].strategy: polar_from = 0 deg and polar_to = 229.183 deg must be "
             "different angles from 0 to 180 deg");

@@ -8,6 +8,8 @@
 #include <iterator>
 #include <string>
 
+#include "stock/mesh/io/mesh_reader.hpp"
+
 namespace frustum::stock {
 namespace {
 
@@ -59,6 +61,20 @@ TEST_F(MeshFile, StlHasEightyBytesOfHeaderAndFiftyATriangle) {
   EXPECT_EQ(read<float>(bytes, 84 + 12 + 12 + 4), 1.0F);     // y of its second vertex
   EXPECT_EQ(read<float>(bytes, 84 + 50 + 44), 1.0F / 3.0F);  // z of the second triangle's last
   EXPECT_EQ(read<std::uint16_t>(bytes, 84 + 48), 0U);
+}
+
+TEST_F(MeshFile, PlyOfPositionsAndFacetsAloneHoldsNothingElse) {
+  SurfaceMesh mesh = tetrahedron();
+  mesh.normals.clear();
+  mesh.deviation.clear();
+  const std::string bytes = mesh_bytes(mesh, MeshFormat::ply);
+  EXPECT_EQ(bytes.find("property float"), std::string::npos);
+  const std::string end = "end_header\n";
+  ASSERT_EQ(bytes.size(), bytes.find(end) + end.size() + 4 * (3 * 8) + 4 * (1 + 3 * 4));
+  const auto again = parse_mesh(bytes, MeshFormat::ply);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->vertices, mesh.vertices);
+  EXPECT_EQ(again->triangles, mesh.triangles);
 }
 
 TEST_F(MeshFile, PlyCarriesDeviationInMicrometresAndSaysWhereThereIsNone) {

@@ -119,7 +119,7 @@ TEST(MeshReader, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(fault("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 zero 0\n", MeshFormat::stl),
               HasSubstr("4: 'zero' is not a finite coordinate"));
   EXPECT_THAT(fault("solid a\nvertex 0 0 0\nendfacet\n", MeshFormat::stl),
-              HasSubstr("3: a facet with 1 vertices"));
+              HasSubstr("3: a facet with 1 vertex"));
   EXPECT_THAT(fault("solid a\nendsolid\n", MeshFormat::stl), HasSubstr("no triangles"));
   EXPECT_THAT(fault("polygon\n", MeshFormat::ply), HasSubstr("1: a PLY begins"));
   std::string ply = kTextPly;

@@ -1,4 +1,6 @@
 // frustum program surface: writes a test piece of a user's own surface.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <memory>
 
@@ -24,9 +26,31 @@ struct SurfaceOptions : PieceOptions {
   std::optional<std::uint64_t> blocks{};
 };
 
+// Two rows are milled by the flank, more by a ball, and each has words of its own.
+Diagnostics unused_options(const SurfaceOptions& o, bool is_ruled) {
+  Diagnostics unused;
+  const auto note = [&](const char* option, bool is_given) {
+    if (!is_given) return;
+    unused.push_back(
+        error("option-conflict"_id,
+              is_ruled ? fmt::format("{} is of a ball, and a net of two rows is milled by the "
+                                     "flank in one pass",
+                                     option)
+                       : fmt::format("{} is of a flank, and a net of more than two rows is milled "
+                                     "by a ball",
+                                     option),
+              is_ruled ? "leave it out, or give the net another row" : "leave it out"));
+  };
+  note("--cusp", is_ruled && o.cusp.has_value());
+  note("--lead", is_ruled && o.lead.has_value());
+  note("--method", !is_ruled && !o.method.empty());
+  return unused;
+}
+
 Result<SurfacePiece> surface_of(const SurfaceOptions& o) {
   auto net = programs::read_surface_net(o.net);
   if (!net) return std::move(net).error();
+  if (Diagnostics unused = unused_options(o, net->rows() == 2); !unused.empty()) return unused;
   SurfacePiece piece{.surface = *std::move(net)};
   if (o.cutter) piece.cutter = Mm{*o.cutter};
   if (o.cusp) piece.cusp = Mm{*o.cusp / kUmPerMm};

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/counted.hpp"
 #include "core/units.hpp"
 #include "parser/dialects/code_table.hpp"
 #include "parser/reading/block_draft.hpp"
@@ -106,7 +107,8 @@ void CldataArcs::begin(LineScanner& in, const CldataRecord& record, std::uint32_
   }
   if (numbers < kWithoutRadius || numbers > kMostNumbers) {
     return in.fail("argument-count"_id, record.column,
-                   fmt::format("{} with {} numbers", record.word, numbers), kCircleRemedy);
+                   fmt::format("{} with {}", record.word, counted(numbers, "number")),
+                   kCircleRemedy);
   }
   circle.centre = record.point();
   if (!set_axis(in, circle, record.point(3), given[3].column)) return;
@@ -220,7 +222,7 @@ std::optional<CldataArcs::Circle> CldataArcs::read_circle(LineScanner& in) {
   const bool flat = shape.arguments.size() == 4;
   if (!flat && shape.arguments.size() != 7) {
     in.fail("argument-count"_id, shape.column,
-            fmt::format("{} with {} numbers", shape.word, shape.arguments.size()),
+            fmt::format("{} with {}", shape.word, counted(shape.arguments.size(), "number")),
             "give x,y,z,r or x,y,z,i,j,k,r");
     return std::nullopt;
   }

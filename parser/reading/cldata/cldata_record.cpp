@@ -1,4 +1,5 @@
 #include "parser/reading/cldata/cldata_record.hpp"
+#include "core/counted.hpp"
 #include "core/decimal.hpp"
 
 #include <fmt/format.h>
@@ -88,7 +89,8 @@ bool are_cldata_numbers(LineScanner& in, const CldataRecord& record,
     if (record.arguments.size() == count) return true;
   }
   in.fail("argument-count"_id, record.column,
-          fmt::format("{} with {} numbers", record.word, record.arguments.size()), remedy);
+          fmt::format("{} with {}", record.word, counted(record.arguments.size(), "number")),
+          remedy);
   return false;
 }
 

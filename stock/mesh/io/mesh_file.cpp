@@ -53,7 +53,35 @@ std::string stl_bytes(const SurfaceMesh& mesh) {
   return out;
 }
 
+void put_faces(std::string& out, const SurfaceMesh& mesh) {
+  for (const auto& triangle : mesh.triangles) {
+    out.push_back('\3');
+    for (const std::uint32_t vertex : triangle) put_word(out, vertex);
+  }
+}
+
+// Without anything that nobody has said.
+std::string bare_ply_bytes(const SurfaceMesh& mesh) {
+  std::string out = fmt::format(
+      "ply\n"
+      "format binary_little_endian 1.0\n"
+      "comment lengths in mm\n"
+      "element vertex {}\n"
+      "property double x\nproperty double y\nproperty double z\n"
+      "element face {}\n"
+      "property list uchar uint vertex_indices\n"
+      "end_header\n",
+      mesh.vertices.size(), mesh.triangles.size());
+  out.reserve(out.size() + 24 * mesh.vertices.size() + 13 * mesh.triangles.size());
+  for (const Vec3& vertex : mesh.vertices) {
+    for (const double x : vertex) put(out, x);
+  }
+  put_faces(out, mesh);
+  return out;
+}
+
 std::string ply_bytes(const SurfaceMesh& mesh) {
+  if (mesh.normals.empty() && mesh.deviation.empty()) return bare_ply_bytes(mesh);
   std::string out = fmt::format(
       "ply\n"
       "format binary_little_endian 1.0\n"
@@ -78,10 +106,7 @@ std::string ply_bytes(const SurfaceMesh& mesh) {
     put(out, um);
     out.push_back(deviation ? '\1' : '\0');
   }
-  for (const auto& triangle : mesh.triangles) {
-    out.push_back('\3');
-    for (const std::uint32_t vertex : triangle) put_word(out, vertex);
-  }
+  put_faces(out, mesh);
   return out;
 }
 

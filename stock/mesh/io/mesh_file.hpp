@@ -2,7 +2,8 @@
 //
 // STL is binary, single precision, no per-vertex data. PLY is binary little endian: x y z as
 // double, nx ny nz, deviation_um, quality (the same number, under the name by which viewers colour)
-// as float, and uchar has_nominal (0: no nominal at this vertex, its deviation says 0). OBJ is text
+// as float, and uchar has_nominal (0: no nominal at this vertex, its deviation says 0); of a mesh
+// without normals and deviations x y z alone. OBJ is text
 // with normals. 3MF is one object in millimetres. VTP (ParaView) has points as double, normals,
 // deviation_um (not a number where there is no nominal: drawn in the colour for that) and kind
 // (VertexKind) at every point.

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/counted.hpp"
 #include "core/text_words.hpp"
 #include "stock/mesh/io/mesh_formats.hpp"
 
@@ -52,7 +53,7 @@ Result<SurfaceMesh> parse_obj(std::string_view text) {
       }
       if (corners.size() < 3) {
         return mesh_fault("facet-corners"_id, line,
-                          fmt::format("a face with {} corners", corners.size()));
+                          fmt::format("a face with {}", counted(corners.size(), "corner")));
       }
       add_polygon(mesh, corners);
     }

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "core/byte_reader.hpp"
+#include "core/counted.hpp"
 #include "core/text_words.hpp"
 #include "stock/mesh/io/mesh_formats.hpp"
 
@@ -100,9 +101,10 @@ Result<SurfaceMesh> text_stl(std::string_view text) {
       corners.push_back(weld(*point));
     } else if (word == "endfacet") {
       if (corners.size() != 3) {
-        return mesh_fault("facet-corners"_id, words.line(),
-                          fmt::format("a facet with {} vertices", corners.size()),
-                          "facets of an STL have three");
+        return mesh_fault(
+            "facet-corners"_id, words.line(),
+            fmt::format("a facet with {}", counted(corners.size(), "vertex", "vertices")),
+            "facets of an STL have three");
       }
       add_polygon(mesh, corners);
       corners.clear();

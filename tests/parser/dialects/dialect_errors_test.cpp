@@ -340,7 +340,7 @@ constexpr Mistake kCldata[] = {
     {"GOFOO/1\n", "1:1: error: unknown record GOFOO"},
     {"123\n", "1:1: error: unexpected '1'"},
     {"END/1\n", "1:5: error: END takes no arguments"},
-    {"GODLTA/5\n", "1:1: error: GODLTA with 1 numbers"},
+    {"GODLTA/5\n", "1:1: error: GODLTA with 1 number"},
     {"GODLTA/1,2,3\n", "1:8: error: X1 is incremental, but X has not been programmed yet"},
     {"DELAY/3,REV\n", "1:7: error: a dwell in revolutions with no spindle speed"},
     {"GOTO/1,2,3 4\n", "1:12: error: unexpected '4'"},
