@@ -211,14 +211,11 @@ class Enumeration {
     DesignChoice choice;
     choice.blocks = blocks_of(set);
     choice.rank = rank_of(singular);
-    choice.identifies_all = choice.rank == free;
     const Eigen::VectorXd identified = eigen.values.tail(choice.rank);
     const Eigen::MatrixXd v = eigen.vectors.rightCols(choice.rank);
     const Eigen::VectorXd variances = v.cwiseAbs2() * identified.cwiseInverse();
     const double log_det = identified.array().log().sum();
-    if (choice.identifies_all) choice.log_det = log_det;
     choice.criterion = criterion(log_det, variances);
-
     choice.standard_deviations.assign(observations_.unknowns.size(), 0.0);
     const std::vector<bool> seen =
         identified_by(eigen.vectors.leftCols(free - choice.rank), variances);
@@ -228,8 +225,18 @@ class Enumeration {
       sd.reset();
       if (seen[k]) sd = size_[j] * std::sqrt(variances[j]);
     }
+    choice.identifies_all = identifies_asked(choice, free);
+    if (choice.identifies_all) choice.log_det = log_det;
     choice.meets_limits = choice.identifies_all && within_limits(choice);
     return choice;
+  }
+
+  [[nodiscard]] bool identifies_asked(const DesignChoice& choice, Eigen::Index free) const {
+    if (!options_.asked) return choice.rank == free;
+    return std::all_of(
+        choice.standard_deviations.begin(),
+        choice.standard_deviations.begin() + static_cast<std::ptrdiff_t>(*options_.asked),
+        [](const std::optional<double>& sd) { return sd.has_value(); });
   }
 
   [[nodiscard]] double criterion(double log_det, const Eigen::VectorXd& variances) const {

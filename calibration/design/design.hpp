@@ -45,6 +45,8 @@ struct DesignOptions {
   std::vector<std::size_t> required{};                           // in every set: cut already
   std::vector<std::pair<std::size_t, std::size_t>> exclusive{};  // never together in a set
   std::vector<std::pair<std::size_t, std::size_t>> needs{};      // the first only with the second
+  // How many unknowns, from the first on, have to be identified; others, as of set-ups, need not.
+  std::optional<std::size_t> asked{};
   // Largest standard deviation wanted, one an unknown; empty: none.
   std::vector<std::optional<double>> limits{};
 };
@@ -52,7 +54,7 @@ struct DesignOptions {
 struct DesignChoice {
   std::vector<std::size_t> blocks{};
   int rank = 0;
-  bool identifies_all = false;
+  bool identifies_all = false;      // that is asked for
   bool meets_limits = false;        // and identifies all
   std::optional<double> log_det{};  // only if it identifies all
   double criterion = 0.0;           // of the directions identified; smaller is better

@@ -12,10 +12,8 @@ Result<TestDesign> test_design(const kinematics::Machine& machine,
                                const std::vector<MeasuredMotion>& motions,
                                std::vector<Unknown> unknowns, const std::vector<Cause>& causes,
                                const TestDesignOptions& options) {
-  for (Unknown ball : ball_unknowns(motions)) {
-    ball.prior = Prior{0.0, options.ball};
-    unknowns.push_back(std::move(ball));
-  }
+  const std::size_t asked = unknowns.size();
+  for (Unknown& ball : ball_unknowns(motions)) unknowns.push_back(std::move(ball));
   const auto found = observations_of(machine, motions, unknowns, causes);
   if (!found) return found.error();
   const Observations& observations = found->observations;
@@ -27,7 +25,7 @@ Result<TestDesign> test_design(const kinematics::Machine& machine,
     blocks.back().rows.push_back(static_cast<Eigen::Index>(i));
   }
   for (const DesignBlock& block : blocks) design.tests.push_back(block.name);
-  DesignOptions choice{.criterion = options.criterion};
+  DesignOptions choice{.criterion = options.criterion, .asked = asked};
   for (const std::string& name : options.required) {
     const auto at = std::ranges::find(design.tests, name);
     if (at == design.tests.end()) {

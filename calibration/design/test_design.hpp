@@ -1,8 +1,9 @@
 // Which motion tests to run on a machine so that its errors can be identified.
 //
 // Model    : design() over the tests of a study, each a block of its rows. The offset of the ball
-//            in the spindle is known to `ball`, one standard deviation, beforehand: without that no
-//            set of tests on a table would identify the position of its first axis
+//            in the spindle is an unknown that is not asked for, as frustum identify takes it: on a
+//            table no set of tests separates it from the position of the first axis, unless the
+//            ball is exact
 // Units    : mm, rad
 // Shape    : every subset of at most kMostBlocks tests
 // Errors   : those of observations_of() and design(); a test that is required and not there
@@ -23,7 +24,6 @@ struct TestDesignOptions {
   DesignCriterion criterion = DesignCriterion::d_optimal;
   std::vector<std::string> required{};     // in every set
   std::map<std::string, double> limits{};  // largest standard deviation wanted, by unknown
-  double ball = 0.03;                      // mm
 };
 
 struct TestDesign {

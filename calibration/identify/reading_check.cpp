@@ -28,6 +28,7 @@ Eigen::MatrixXd residual_projection(const Eigen::MatrixXd& model) {
 struct SuspectGroup {
   std::size_t group = 0;
   double fall = 0.0;  // of the sum of squares without it
+  int rank = 0;       // of what of it is checked
   Eigen::VectorXd excess{};
 };
 
@@ -35,11 +36,18 @@ std::vector<SuspectGroup> suspect_groups(const Eigen::MatrixXd& projection,
                                          const Eigen::VectorXd& residuals, Eigen::Index size) {
   std::vector<SuspectGroup> all;
   for (Eigen::Index at = 0; at + size <= residuals.size(); at += size) {
-    const Eigen::MatrixXd own = projection.block(at, at, size, size);
-    if (!(symmetric_eigenvalues(own)[0] > kUnchecked)) continue;
+    const SymmetricEigen own = symmetric_eigen(projection.block(at, at, size, size));
     const Eigen::VectorXd v = residuals.segment(at, size);
-    const Eigen::VectorXd excess = SymmetricFactors(own).solve(v);
-    all.push_back({static_cast<std::size_t>(at / size), v.dot(excess), excess});
+    SuspectGroup each{.group = static_cast<std::size_t>(at / size),
+                      .excess = Eigen::VectorXd::Zero(size)};
+    for (Eigen::Index k = 0; k < size; ++k) {
+      if (!(own.values[k] > kUnchecked)) continue;
+      const double along = own.vectors.col(k).dot(v);
+      each.excess += along / own.values[k] * own.vectors.col(k);
+      each.fall += along * along / own.values[k];
+      ++each.rank;
+    }
+    if (each.rank > 0) all.push_back(std::move(each));
   }
   std::ranges::stable_sort(all, std::ranges::greater{}, &SuspectGroup::fall);
   return all;
@@ -58,7 +66,8 @@ ReadingCheck reading_check(const Eigen::MatrixXd& model, const Eigen::VectorXd& 
   Eigen::Index largest = 0;
   check.residuals.cwiseAbs().maxCoeff(&largest);
   check.largest = static_cast<std::size_t>(largest);
-  check.standard_deviations = options.noise * projection.diagonal().cwiseMax(0.0).cwiseSqrt();
+  check.redundancy = projection.diagonal().cwiseMax(0.0);
+  check.standard_deviations = options.noise * check.redundancy.cwiseSqrt();
   if (check.degrees_of_freedom <= 0) return check;
   if (options.noise > 0.0) {
     const double variance = options.noise * options.noise;
@@ -72,14 +81,13 @@ ReadingCheck reading_check(const Eigen::MatrixXd& model, const Eigen::VectorXd& 
 
   const auto size = static_cast<Eigen::Index>(options.group_size);
   const auto candidates = suspect_groups(projection, check.residuals, size);
-  const int left = check.degrees_of_freedom - static_cast<int>(size);
-  if (candidates.empty() || left <= 0) return check;
+  if (candidates.empty() || check.degrees_of_freedom <= candidates.front().rank) return check;
   const SuspectGroup& first = candidates.front();
   const double rest = std::max(check.sum_of_squares - first.fall, 0.0);
-  const double variance = std::max(rest / left, options.noise * options.noise);
+  const double variance =
+      std::max(rest / (check.degrees_of_freedom - first.rank), options.noise * options.noise);
   const double least = options.noise > 0.0 ? 0.0 : options.least_excess;
-  if (first.fall <= kSuspect * static_cast<double>(size) * variance ||
-      first.excess.norm() <= least) {
+  if (first.fall <= kSuspect * first.rank * variance || first.excess.norm() <= least) {
     return check;
   }
   check.consistent = false;

@@ -1,8 +1,8 @@
 // Whether the readings of a calibration agree with one another, and which of them does not.
 //
 // Model    : readings y = A x + noise; residuals v = Q y with Q = 1 - A (A^T A)^-1 A^T. Readings
-//            i of one group that are off by g leave Q g: the most likely g is Q_ii^-1 v_i, and
-//            without the group the sum of squares falls by v_i^T Q_ii^-1 v_i. The group that takes
+//            i of one group that are off by g leave Q g: the most likely g is Q_ii^+ v_i, and
+//            without the group the sum of squares falls by v_i^T Q_ii^+ v_i. The group that takes
 //            most is suspect where that is more than kSuspect times as much, per reading, as what
 //            noise or the rest leaves; others that take as much, but for a chance, are named with
 //            it
@@ -37,6 +37,9 @@ struct ReadingCheckOptions {
 
 struct ReadingCheck {
   Eigen::VectorXd residuals{};
+  // Of a reading that is off by one its residual shows so much; zero: nothing checks it, and what it
+  // is off by goes into the unknowns without a trace.
+  Eigen::VectorXd redundancy{};
   Eigen::VectorXd standard_deviations{};  // of the residuals, by the noise; zero: not stated
   int degrees_of_freedom = 0;
   double rms = 0.0;
