@@ -137,10 +137,14 @@ std::string position_text(const TouchPlan& plan, std::size_t tilt, std::size_t t
                      as_stated(plan.turns[turn].axis * kDegPerRad));
 }
 
-std::string place_of(const TouchPlan& plan, const PlannedTouch& touch) {
+std::string point_text(std::size_t point) {
   constexpr std::array<const char*, 5> kFaces{"+X", "-X", "+Y", "-Y", "top"};
-  return fmt::format("point {} ({} of column {}) at {}", touch.point,
-                     kFaces.at(touch.point % kFaces.size()), touch.point / kFaces.size() + 1,
+  return fmt::format("point {} ({} of column {})", point, kFaces.at(point % kFaces.size()),
+                     point / kFaces.size() + 1);
+}
+
+std::string place_of(const TouchPlan& plan, const PlannedTouch& touch) {
+  return fmt::format("{} at {}", point_text(touch.point),
                      position_text(plan, touch.tilt, touch.turn));
 }
 

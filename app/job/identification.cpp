@@ -218,6 +218,13 @@ Result<calibration::PieceObservations> observations_of_study(const Study& study,
   return calibration::joint_observations(std::move(pieces), *std::move(motions));
 }
 
+bool is_answered(const StudyResult& result) {
+  const auto& estimates = result.identification.estimates;
+  return std::all_of(estimates.begin(),
+                     estimates.begin() + static_cast<std::ptrdiff_t>(result.asked),
+                     [](const calibration::Estimate& e) { return e.value.has_value(); });
+}
+
 Result<StudyResult> identify_study(const Study& study) {
   auto all = unknown_causes(study.machine(), study.unknowns, study.known);
   if (!all) return std::move(all).error();
@@ -228,6 +235,9 @@ Result<StudyResult> identify_study(const Study& study) {
   if (!refined) return std::move(refined).error();
   StudyResult result;
   result.identification = std::move(refined->identification);
+  result.asked = study.unknowns.size();
+  result.mountings = found_mountings(study.motions, observations->observations.unknowns,
+                                     all->causes, result.identification.working_point);
   result.changes = std::move(refined->changes);
   result.left_out = observations->left_out;
   auto shares = calibration::information_shares(observations->observations,

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -68,6 +69,22 @@ std::optional<Diagnostic> disagreement(const ReadingCheck& check, const ReadingN
                              count > 1 ? ": one of them is" : " is", um_text(check.excess.norm()),
                              um_text(check.rms_without)),
                  "measure there again: as it is it goes into the maps");
+}
+
+// Points all of whose touches nothing checks.
+std::vector<std::string> unchecked_points(const TouchPlan& plan, const ReadingCheck& check) {
+  constexpr double kUnchecked = 1e-6;
+  std::array<bool, instruments::kTouchPoints> checked{};
+  for (std::size_t t = 0; t < plan.touches.size(); ++t) {
+    if (check.redundancy[static_cast<Eigen::Index>(t)] > kUnchecked) {
+      checked.at(plan.touches[t].point) = true;
+    }
+  }
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < checked.size(); ++k) {
+    if (!checked.at(k)) names.push_back(instruments::point_text(k));
+  }
+  return names;
 }
 
 void add_residuals(MotionAnswer& answer, const ReadingCheck& check, const ReadingNames& names,
@@ -165,6 +182,16 @@ void add_touch_residuals(MotionAnswer& answer, const TouchPlan& plan,
   const ReadingNames names{"touches", place, place};
   if (auto problem = disagreement(check, names)) answer.warnings.push_back(*std::move(problem));
   add_residuals(answer, check, names, {});
+  const auto unchecked = unchecked_points(plan, check);
+  answer.document["unchecked"] = unchecked;
+  if (unchecked.empty()) return;
+  const std::string note = fmt::format(
+      "Nothing checks the touches of {}: three tops give the height and the tilts of a pose, and "
+      "one "
+      "that is off goes into the maps without a trace.",
+      fmt::join(unchecked, ", "));
+  answer.page.tables.back().note = note;
+  answer.text += note + "\n";
 }
 
 void add_ball_residuals(MotionAnswer& answer, const TouchPlan& plan, std::span<const Vec3> balls,
