@@ -58,8 +58,8 @@ struct Signature {
 
 [[nodiscard]] Result<Signature> signature(std::span<const CircleTrace> traces, double length);
 
-// What a unit of each term is at an angle; w: +1 ccw, -1 cw; square in multiples of rad * length, so
-// that all are mm.
+// What a unit of each term is at an angle; w: +1 ccw, -1 cw; square in multiples of rad * length,
+// so that all are mm.
 [[nodiscard]] Eigen::Matrix<double, kSignatureTerms, 1> signature_row(double angle, double w);
 
 // Whether each term can be identified from a trace: with one reading a degree its standard

@@ -1,6 +1,6 @@
 // Whether a ball bar as it is set up, and what holds its balls, keep clear of the machine.
 //
-// Model    : the bar is a cylinder between its balls, the spindle ball is at the end of a stem along
+// Model    : the bar is a cylinder between its balls, the spindle ball at the end of a stem along
 //            the tool, the table ball on a cup along Z of the table. At samples of the pass their
 //            distances from the bodies of the machine file are found, and those of the spindle from
 //            the table. Near its balls the bar is not looked at. A tool length below kLeastStem

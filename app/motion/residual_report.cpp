@@ -186,9 +186,9 @@ void add_touch_residuals(MotionAnswer& answer, const TouchPlan& plan,
   answer.document["unchecked"] = unchecked;
   if (unchecked.empty()) return;
   const std::string note = fmt::format(
-      "Nothing checks the touches of {}: three tops give the height and the tilts of a pose, and "
-      "one "
-      "that is off goes into the maps without a trace.",
+      "Nothing checks the touches of {}: three tops give the height and the tilts of a pose and no "
+      "more, and what is touched at zero alone is compared with nothing. One that is off goes into "
+      "the maps without a trace.",
       fmt::join(unchecked, ", "));
   answer.page.tables.back().note = note;
   answer.text += note + "\n";

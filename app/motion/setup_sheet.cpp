@@ -40,8 +40,8 @@ std::vector<Vec3> corners_of(const kinematics::MachineBody& body, const Pose& ta
   return corners;
 }
 
-// The line of a rotary axis in the frame of the table, with the direction about which its part turns
-// as it grows.
+// The line of a rotary axis in the frame of the table, with the direction about which its part
+// turns as it grows.
 std::optional<report::BarDrawing::Axis> turning_axis(const kinematics::Machine& machine,
                                                      const std::string& letter_text,
                                                      const kinematics::AxisPositions& q) {

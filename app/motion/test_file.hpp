@@ -4,8 +4,8 @@
 //          the options of `frustum motion` as keys, tables [setup], [instrument] and [errors]
 //          (docs/motion-tests.md)
 // Units  : lengths mm, angles degrees unless a text says otherwise; set-up errors um, feed mm/min
-// Errors : every unknown, missing or mistyped key, with its line; what is found out later of a key's
-//          value is placed by in_test_file()
+// Errors : every unknown, missing or mistyped key, with its line; what is found out later of a
+//          key's value is placed by in_test_file()
 #pragma once
 
 #include <filesystem>

@@ -37,8 +37,8 @@ struct ReadingCheckOptions {
 
 struct ReadingCheck {
   Eigen::VectorXd residuals{};
-  // Of a reading that is off by one its residual shows so much; zero: nothing checks it, and what it
-  // is off by goes into the unknowns without a trace.
+  // Of a reading that is off by one its residual shows so much; zero: nothing checks it, and what
+  // it is off by goes into the unknowns without a trace.
   Eigen::VectorXd redundancy{};
   Eigen::VectorXd standard_deviations{};  // of the residuals, by the noise; zero: not stated
   int degrees_of_freedom = 0;
