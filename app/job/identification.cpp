@@ -229,10 +229,21 @@ Result<StudyResult> identify_study(const Study& study) {
   auto all = unknown_causes(study.machine(), study.unknowns, study.known);
   if (!all) return std::move(all).error();
   add_tool_radius(study, *all);
-  const auto observations = observations_of_study(study, *all);
+  auto observations = observations_of_study(study, *all);
   if (!observations) return observations.error();
   auto refined = estimate(study, *observations);
   if (!refined) return std::move(refined).error();
+  if (!study.motions.empty()) {
+    // What the tests do not see of their mountings shows by the errors that were found.
+    const auto unseen =
+        unseen_mounting_covariance(study.motions, observations->observations.unknowns, all->causes,
+                                   refined->identification.working_point);
+    if (!unseen) return unseen.error();
+    const Eigen::Index rows = unseen->rows();
+    observations->observations.covariance.bottomRightCorner(rows, rows) += *unseen;
+    refined = estimate(study, *observations);
+    if (!refined) return std::move(refined).error();
+  }
   StudyResult result;
   result.identification = std::move(refined->identification);
   result.asked = study.unknowns.size();

@@ -72,11 +72,21 @@ struct Condensed {
   std::vector<Row> names{};
 };
 
+constexpr double kSeen = 1e-12;  // of the largest: a millionth of its effect
+
+// Directions of the mounting that change no reading to first order, as columns.
+Eigen::MatrixXd unseen_directions(const Eigen::MatrixXd& of_mounting) {
+  const SymmetricEigen normal = symmetric_eigen(of_mounting.transpose() * of_mounting);
+  const double least = kSeen * normal.values.cwiseAbs().maxCoeff();
+  Eigen::Index unseen = 0;
+  while (unseen < normal.values.size() && !(normal.values[unseen] > least)) ++unseen;
+  return normal.vectors.leftCols(unseen);
+}
+
 // What readings say of the mounting, to first order: the shortest answer of least squares.
 Eigen::MatrixXd mounting_estimator(const Eigen::MatrixXd& of_mounting) {
   const Eigen::MatrixXd transposed = of_mounting.transpose();
   const SymmetricEigen normal = symmetric_eigen(transposed * of_mounting);
-  constexpr double kSeen = 1e-12;  // of the largest: a millionth of its effect
   const double least = kSeen * normal.values.cwiseAbs().maxCoeff();
   Eigen::VectorXd inverse = Eigen::VectorXd::Zero(normal.values.size());
   for (Eigen::Index k = 0; k < inverse.size(); ++k) {
@@ -199,6 +209,34 @@ std::vector<Unknown> ball_unknowns(const std::vector<MeasuredMotion>& motions) {
     }
   }
   return unknowns;
+}
+
+Result<Eigen::MatrixXd> unseen_mounting_covariance(const std::vector<MeasuredMotion>& motions,
+                                                   const std::vector<Unknown>& unknowns,
+                                                   const std::vector<Cause>& causes,
+                                                   const Eigen::VectorXd& values, double size) {
+  Eigen::MatrixXd covariance;
+  for (const MeasuredMotion& motion : motions) {
+    const auto test = condensed(motion);
+    if (!test) return test.error();
+    const Eigen::Index before = covariance.rows(), own = test->rows.rows();
+    covariance.conservativeResize(before + own, before + own);
+    covariance.rightCols(own).setZero();
+    covariance.bottomRows(own).setZero();
+    if (test->mounting.size() == 0) continue;
+    const GeometricErrors errors = errors_with(motion.base, causes, values);
+    const Vec3 ds = ball_at_column(ball_column(motion, unknowns, causes.size()), values);
+    const Eigen::VectorXd s = mounting_with(motion, errors, ds);
+    const Eigen::MatrixXd unseen = unseen_directions(motion.of_mounting);
+    for (Eigen::Index k = 0; k < unseen.cols(); ++k) {
+      const Eigen::VectorXd step = size * unseen.col(k);
+      const Eigen::VectorXd shown =
+          0.5 * test->rows *
+          (motion.readings(errors, ds, s + step) - motion.readings(errors, ds, s - step));
+      covariance.bottomRightCorner(own, own) += shown * shown.transpose();
+    }
+  }
+  return covariance;
 }
 
 std::vector<FoundMounting> found_mountings(const std::vector<MeasuredMotion>& motions,

@@ -76,6 +76,15 @@ struct FoundMounting {
                                                          const std::vector<Cause>& causes,
                                                          const Eigen::VectorXd& values);
 
+// What of its mounting a test does not see to first order, as a table ball that is off across an
+// axial bar, shows as the product of that and of what the errors move the ball by, over the length
+// of the bar. Covariance of all rows for mountings that are known to `size`, one standard
+// deviation, beforehand.
+constexpr double kMountingSize = 0.03;  // mm
+[[nodiscard]] Result<Eigen::MatrixXd> unseen_mounting_covariance(
+    const std::vector<MeasuredMotion>& motions, const std::vector<Unknown>& unknowns,
+    const std::vector<Cause>& causes, const Eigen::VectorXd& values, double size = kMountingSize);
+
 // `unknowns`: those of the causes one by one, then the balls'. Causes without a machine error (tool
 // radii) do nothing.
 [[nodiscard]] Result<MotionObservations> observations_of(const kinematics::Machine& machine,

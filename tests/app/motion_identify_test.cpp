@@ -155,44 +155,6 @@ TEST_F(MotionIdentifySystem, BlindMachinesAreWithinTheirIntervals) {
   EXPECT_GE(covered, 0.95 * intervals - 4.0 * std::sqrt(0.0475 * intervals));
 }
 
-// Balls that are off by tenths of a millimetre show d^2 / 2L, a hundred times what a trace tells:
-// the mounting is found anew with the errors, and takes its square along.
-TEST_F(MotionIdentifySystem, SetUpsThatAreOffLeaveNoSquaresInTheErrors) {
-  const auto truth = machine(79);
-  const std::string common =
-      " --setup \"table_ball=200,-150,100;length=20\" --machine zx-yac" + errors_of(truth);
-  std::string study;
-  const auto add = [&](const std::string& name, const std::string& test) {
-    measure(name, test + common);
-    study += motion(name, "noise = \"0.3um\"\nball = \"exact\"");
-  };
-  for (const char* plane : {"XY", "YZ", "ZX"}) {
-    add(plane, fmt::format("circle --plane {} --length 150 --center 0,0,150", plane));
-  }
-  for (const char* axis : {"C", "A"}) {
-    for (const char* direction : {"axial", "radial", "tangential"}) {
-      add(std::string(axis) + direction,
-          fmt::format("rotary --axis {} --direction {} --ball 60,80,40 --length 100", axis,
-                      direction));
-    }
-  }
-  write("study.toml", study);
-  const json found = identified("study.toml");
-  ASSERT_FALSE(found.is_null());
-  for (const auto& [name, value] : truth) {
-    const json each = estimate(found, name);
-    ASSERT_TRUE(each["value"].is_number()) << name;
-    EXPECT_NEAR(each["value"].get<double>(), value,
-                0.05 * each["standard_uncertainty"].get<double>())
-        << name;
-  }
-  for (const json& each : found["setup_found"]) {
-    if (each["test"] != "XY") continue;
-    EXPECT_NEAR(each["table ball X um"].get<double>(), 200.0, 0.05);
-    EXPECT_NEAR(each["table ball Y um"].get<double>(), -150.0, 0.05);
-  }
-}
-
 // Bars, an R-test, diagonals and touches in one estimate, the ball known.
 TEST_F(MotionIdentifySystem, EveryKindOfTestInOneEstimate) {
   const auto truth = machine(77);
