@@ -233,8 +233,9 @@ Result<StudyResult> identify_study(const Study& study) {
   if (!observations) return observations.error();
   auto refined = estimate(study, *observations);
   if (!refined) return std::move(refined).error();
-  if (!study.motions.empty()) {
-    // What the tests do not see of their mountings shows by the errors that were found.
+  if (!study.motions.empty() && !refined->identification.agreement.rejected) {
+    // What the tests do not see of their mountings shows by the errors that were found; of a model
+    // that does not explain the readings those say nothing.
     const auto unseen =
         unseen_mounting_covariance(study.motions, observations->observations.unknowns, all->causes,
                                    refined->identification.working_point);
