@@ -1,8 +1,8 @@
 // Where the readings of a test say that its balls and its bar are.
 //
 // Model    : reading = -u . db - dL: least squares over all readings of a machine without errors;
-//            of set-ups that explain them as well the smallest. What errors of the machine look like a
-//            set-up is in it
+//            of set-ups that explain them as well the smallest. What errors of the machine look
+//            like a set-up is in it
 // Units    : um in the document
 // Errors   : none
 // Accuracy : first order

@@ -106,8 +106,8 @@ TEST_F(ProbeSystem, NothingShowsWhereCutterAndProbeAreAlike) {
   for (const char* error : {"EC0Y", "EXX linear", "EYY linear", "EYX linear"}) {
     EXPECT_TRUE(holds(doc["cancel"], error)) << error;
   }
-  // Without the option the probe is as long as the tool, 3 mm longer: on this machine, where X and Y
-  // move the work, that is no difference either.
+  // Without the option the probe is as long as the tool, 3 mm longer: on this machine, where X and
+  // Y move the work, that is no difference either.
   EXPECT_LT(characteristic(document("probe boss.toml" + errors), "boss.roundness")["on_machine"]
                 .get<double>(),
             0.03);
