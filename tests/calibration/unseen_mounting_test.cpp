@@ -11,9 +11,9 @@ namespace frustum::calibration {
 namespace {
 
 // A bar of 100 mm along C does not see that its table ball is off across it, unless the axis is
-// off, too: a C axis that is 10 um off centre moves the table by that on a circle, which a ball that is
-// 30 um off turns into 30 um times 10 um over 100 mm, a cosine for one direction, a sine for the
-// other.
+// off, too. A C axis that is 10 um off centre moves the table by that on a circle; a ball that is
+// 30 um off turns it into 30 um times 10 um over 100 mm: a cosine for one direction, a sine for
+// the other.
 TEST(UnseenMounting, IsTheProductOfBothOverTheLengthOfTheBar) {
   const auto machine = kinematics::shipped("zx-yac");
   instruments::RotaryTest rotary{.axis = kinematics::AxisLetter::C,
