@@ -24,6 +24,21 @@ std::vector<std::string> names_of(const PartGains& gains, const std::vector<std:
   return names;
 }
 
+// "cone.form 72 %": what an error does on the machine, of what it does on a CMM.
+std::vector<std::string> shares_of(const PartGains& gains, std::size_t parameter,
+                                   const std::vector<std::size_t>& which) {
+  constexpr double kManifold = 10.0;
+  std::vector<std::string> texts;
+  for (const std::size_t c : which) {
+    const auto row = static_cast<Eigen::Index>(c), k = static_cast<Eigen::Index>(parameter);
+    const double share = gains.on_machine(row, k) / gains.on_cmm(row, k);
+    texts.push_back(share < kManifold
+                        ? fmt::format("{} {:.0f} %", gains.characteristics[c], 100.0 * share)
+                        : gains.characteristics[c] + " (there alone)");
+  }
+  return texts;
+}
+
 const char* unit_name(bool angular) { return angular ? "urad" : "um"; }
 
 // um and urad per um and urad.
@@ -90,7 +105,7 @@ void add_fates(MotionAnswer& answer, const PartGains& gains) {
   std::vector<trials::FateOfError> fates;
   for (std::size_t k = 0; k < gains.parameters.size(); ++k) fates.push_back(fate_of(gains, k));
   report::MotionTable shown{.heading = "What becomes of each error on the machine",
-                            .columns = {"error", "", "characteristics"}};
+                            .columns = {"error", "on the machine", "of its effect on a CMM"}};
   for (const Group& group : kGroups) {
     std::vector<std::string> names;
     std::vector<Document> parts;
@@ -102,7 +117,7 @@ void add_fates(MotionAnswer& answer, const PartGains& gains) {
                  kept = names_of(gains, fates[k].kept);
       parts.push_back({{"error", name}, {"cancelled", cancelled}, {"kept", kept}});
       if (group.fate == ErrorFate::nothing) continue;
-      std::string where = fmt::format("{}", fmt::join(kept, ", "));
+      std::string where = fmt::format("{}", fmt::join(shares_of(gains, k, fates[k].kept), ", "));
       if (!cancelled.empty()) {
         where = fmt::format("not in {}{}{}", fmt::join(cancelled, ", "),
                             where.empty() ? "" : "; in ", where);
