@@ -91,6 +91,31 @@ Result<TableMaps> maps_of_balls(const TouchPlan& plan, std::span<const Vec3> bal
   return maps_of_poses(plan, std::move(poses));
 }
 
+Eigen::MatrixXd reading_model(const TouchPlan& plan, std::span<const Vec3> balls) {
+  const std::vector<Vec3> placed = from_crossing(plan, balls);
+  const auto count = static_cast<Eigen::Index>(balls.size());
+  const auto poses = static_cast<Eigen::Index>(plan.tilts.size() * plan.turns.size());
+  Eigen::MatrixXd model = Eigen::MatrixXd::Zero(3 * count * poses, 3 * count + 6 * (poses - 1));
+  for (Eigen::Index k = 0; k < count; ++k) {
+    Eigen::Index at = 0;
+    for (const TablePosition& tilt : plan.tilts) {
+      for (const TablePosition& turn : plan.turns) {
+        const Eigen::Index row = 3 * (k * poses + at);
+        model.block<3, 3>(row, 3 * k) = Mat3::Identity();
+        if (at > 0) {
+          const Mat3 rotation = tilt.rotation * turn.rotation;
+          const Vec3 p = rotation * placed[static_cast<std::size_t>(k)];
+          const Eigen::Index column = 3 * count + 6 * (at - 1);
+          model.block<3, 3>(row, column) = -rotation.transpose();
+          model.block<3, 3>(row, column + 3) = rotation.transpose() * cross_matrix(p);
+        }
+        ++at;
+      }
+    }
+  }
+  return model;
+}
+
 Result<TableMaps> deviations_of_balls(const TouchPlan& plan, std::span<const Vec3> balls,
                                       double noise) {
   const std::size_t count = plan.tilts.size() * plan.turns.size();

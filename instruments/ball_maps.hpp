@@ -28,6 +28,10 @@ namespace frustum::instruments {
 [[nodiscard]] Result<TableMaps> maps_of_balls(const TouchPlan& plan, std::span<const Vec3> balls,
                                               const std::vector<std::vector<Vec3>>& readings);
 
+// What the readings are made of, to first order, ball by ball, pose by pose, x y z; columns: the
+// place of each ball, then the six errors of each pose but the first.
+[[nodiscard]] Eigen::MatrixXd reading_model(const TouchPlan& plan, std::span<const Vec3> balls);
+
 // Standard deviations for independent noise of one standard deviation in each coordinate.
 [[nodiscard]] Result<TableMaps> deviations_of_balls(const TouchPlan& plan,
                                                     std::span<const Vec3> balls, double noise);

@@ -95,9 +95,15 @@ Result<MotionTest> circle_test(const Machine& machine, const CircleTest& circle)
             circle.centre + circle.length * (std::cos(phi) * e1 + std::sin(phi) * e2)};
   });
   const auto [least, most] = std::ranges::minmax(circle.angles);
-  test.motion = w > 0.0
-                    ? TestMotion{axes_at, least - kOvershootOfCircle, most + kOvershootOfCircle}
-                    : TestMotion{axes_at, most + kOvershootOfCircle, least - kOvershootOfCircle};
+  // An upright arc, one with a gap of more than two steps, is none of a turn so that the bar stays
+  // above the table.
+  constexpr double kOvershootOfArc = 2.0 * kRadPerDeg;
+  const double gap = 2.0 * std::numbers::pi - (most - least);
+  const auto steps = static_cast<double>(circle.angles.size()) - 1.0;
+  const bool arc = circle.plane != Plane::XY && steps > 0.0 && gap > 2.0 * (most - least) / steps;
+  const double over = arc ? kOvershootOfArc : kOvershootOfCircle;
+  test.motion = w > 0.0 ? TestMotion{axes_at, least - over, most + over}
+                        : TestMotion{axes_at, most + over, least - over};
   if (auto problem = out_of_reach(machine, test, "phi")) return *std::move(problem);
   return test;
 }

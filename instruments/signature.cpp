@@ -18,16 +18,6 @@ constexpr auto kServo = static_cast<Eigen::Index>(SignatureTerm::servo);
 
 double sign(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0; }
 
-// What a unit of each term is at an angle; square in multiples of rad * length, so that all are mm.
-Terms row_at(double angle, double w) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  const double cos2 = c * c - s * s, sin2 = 2.0 * s * c;
-  const double head1 = -w * sign(s), head2 = w * sign(c);
-  Terms row;
-  row << 1.0, c, s, cos2, -0.5 * sin2, 0.5 * w * sin2, -0.5 * head1 * c, -0.5 * head2 * s;
-  return row;
-}
-
 Terms in_mm(const Signature& signature, double length) {
   Terms x;
   for (std::size_t k = 0; k < kSignatureTerms; ++k) {
@@ -55,6 +45,15 @@ struct Extremes {
 
 }  // namespace
 
+Eigen::Matrix<double, kSignatureTerms, 1> signature_row(double angle, double w) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  const double cos2 = c * c - s * s, sin2 = 2.0 * s * c;
+  const double head1 = -w * sign(s), head2 = w * sign(c);
+  Terms row;
+  row << 1.0, c, s, cos2, -0.5 * sin2, 0.5 * w * sin2, -0.5 * head1 * c, -0.5 * head2 * s;
+  return row;
+}
+
 const TermText& text_of(SignatureTerm term) {
   static constexpr std::array<TermText, kSignatureTerms> kTexts{{
       {"r0", "mean radius: mean scale, equal lag", "the length of the bar"},
@@ -79,7 +78,7 @@ Result<Signature> signature(std::span<const CircleTrace> traces, double length) 
   std::size_t count = 0;
   for (const CircleTrace& trace : traces) {
     for (std::size_t i = 0; i < trace.angle.size(); ++i) {
-      const Terms row = row_at(trace.angle[i], sign_of(trace.sense));
+      const Terms row = signature_row(trace.angle[i], sign_of(trace.sense));
       normal.selfadjointView<Eigen::Lower>().rankUpdate(row);
       right += trace.deviation[i] * row;
     }
@@ -106,12 +105,13 @@ Result<Signature> signature(std::span<const CircleTrace> traces, double length) 
   Terms x = factors.solve(Eigen::VectorXd(right));
   if (!found.both_senses) x[kServo] = 0.0;
   const auto left_over = [&](std::size_t t, std::size_t i) {
-    return traces[t].deviation[i] - row_at(traces[t].angle[i], sign_of(traces[t].sense)).dot(x);
+    return traces[t].deviation[i] -
+           signature_row(traces[t].angle[i], sign_of(traces[t].sense)).dot(x);
   };
   Terms left = Terms::Zero();
   for (std::size_t t = 0; t < traces.size(); ++t) {
     for (std::size_t i = 0; i < traces[t].angle.size(); ++i) {
-      left += left_over(t, i) * row_at(traces[t].angle[i], sign_of(traces[t].sense));
+      left += left_over(t, i) * signature_row(traces[t].angle[i], sign_of(traces[t].sense));
     }
   }
   if (!found.both_senses) left[kServo] = 0.0;
@@ -163,7 +163,8 @@ std::vector<std::vector<double>> residuals(std::span<const CircleTrace> traces,
     std::vector<double>& of_trace = left.emplace_back();
     of_trace.reserve(trace.angle.size());
     for (std::size_t i = 0; i < trace.angle.size(); ++i) {
-      of_trace.push_back(trace.deviation[i] - row_at(trace.angle[i], sign_of(trace.sense)).dot(x));
+      of_trace.push_back(trace.deviation[i] -
+                         signature_row(trace.angle[i], sign_of(trace.sense)).dot(x));
     }
   }
   return left;
@@ -176,7 +177,7 @@ std::vector<Contribution> contributions(std::span<const CircleTrace> traces,
   Extremes rest;
   for (const CircleTrace& trace : traces) {
     for (std::size_t i = 0; i < trace.angle.size(); ++i) {
-      const Terms row = row_at(trace.angle[i], sign_of(trace.sense));
+      const Terms row = signature_row(trace.angle[i], sign_of(trace.sense));
       for (std::size_t k = 0; k < kSignatureTerms; ++k) {
         const auto at = static_cast<Eigen::Index>(k);
         of_terms[k].include(row[at] * x[at]);

@@ -13,6 +13,7 @@
 // Source   : ISO 230-4; Knapp 1983 (circular test); docs/motion-tests.md
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <optional>
 #include <span>
@@ -56,6 +57,10 @@ struct Signature {
 };
 
 [[nodiscard]] Result<Signature> signature(std::span<const CircleTrace> traces, double length);
+
+// What a unit of each term is at an angle; w: +1 ccw, -1 cw; square in multiples of rad * length,
+// so that all are mm.
+[[nodiscard]] Eigen::Matrix<double, kSignatureTerms, 1> signature_row(double angle, double w);
 
 // Whether each term can be identified from a trace: with one reading a degree its standard
 // deviation is below the noise of a single reading. A quadrant identifies backlash and servo

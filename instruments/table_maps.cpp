@@ -103,6 +103,31 @@ TableMaps identified_maps(const TouchPlan& plan, std::span<const double> reading
   return maps_of_poses(plan, std::move(poses));
 }
 
+Eigen::MatrixXd reading_model(const TouchPlan& plan) {
+  const std::vector<PoseTouches> poses = by_pose(plan);
+  constexpr auto kOfPoints = static_cast<Eigen::Index>(kTouchPoints);
+  const auto others = static_cast<Eigen::Index>(poses.size()) - 1;
+  Eigen::MatrixXd model =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(plan.touches.size()), kOfPoints + 6 * others);
+  Eigen::Index column = kOfPoints;
+  for (const PoseTouches& pose : poses) {
+    const bool at_zero = pose.tilt == 0 && pose.turn == 0;
+    for (const std::size_t t : pose.at) {
+      const PlannedTouch& touch = plan.touches[t];
+      const auto row = static_cast<Eigen::Index>(t);
+      model(row, static_cast<Eigen::Index>(touch.point)) = 1.0;
+      if (at_zero) continue;
+      const Mat3 rotation = plan.rotation(touch);
+      const Vec3 n = rotation * touch_points().at(touch.point).normal;
+      const Vec3 p = rotation * touch_points().at(touch.point).place;
+      model.row(row).segment<3>(column) = n;
+      model.row(row).segment<3>(column + 3) = p.cross(n);
+    }
+    if (!at_zero) column += 6;
+  }
+  return model;
+}
+
 TableMaps standard_deviations(const TouchPlan& plan, double noise) {
   constexpr std::array<double, kTouchPoints> kNominal{};
   const auto reference_at = reference_touches(plan);

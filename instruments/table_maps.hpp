@@ -42,6 +42,11 @@ struct TableMaps {
 // `readings`: of the plan's touches, outward along the nominal normals (touch_test.hpp).
 [[nodiscard]] TableMaps identified_maps(const TouchPlan& plan, std::span<const double> readings);
 
+// What the readings are made of, to first order, those at zero among them: a row a touch; columns:
+// how far out each point is, then the six errors of each pose but that at zero. More readings than
+// unknowns: what is left over says whether they agree.
+[[nodiscard]] Eigen::MatrixXd reading_model(const TouchPlan& plan);
+
 // Standard deviations for independent noise of one standard deviation in each touch. The touches
 // at zero are in every pose, so that the estimates are correlated.
 [[nodiscard]] TableMaps standard_deviations(const TouchPlan& plan, double noise);

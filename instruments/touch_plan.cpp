@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/decimal.hpp"
 #include "kinematics/model/joint_motion.hpp"
 
 namespace frustum::instruments {
@@ -129,6 +130,22 @@ Result<TouchPlan> touch_plan(const Machine& machine) {
     }
   }
   return plan;
+}
+
+std::string position_text(const TouchPlan& plan, std::size_t tilt, std::size_t turn) {
+  return fmt::format("A = {:g} deg, C = {:g} deg", as_stated(plan.tilts[tilt].axis * kDegPerRad),
+                     as_stated(plan.turns[turn].axis * kDegPerRad));
+}
+
+std::string point_text(std::size_t point) {
+  constexpr std::array<const char*, 5> kFaces{"+X", "-X", "+Y", "-Y", "top"};
+  return fmt::format("point {} ({} of column {})", point, kFaces.at(point % kFaces.size()),
+                     point / kFaces.size() + 1);
+}
+
+std::string place_of(const TouchPlan& plan, const PlannedTouch& touch) {
+  return fmt::format("{} at {}", point_text(touch.point),
+                     position_text(plan, touch.tilt, touch.turn));
 }
 
 }  // namespace frustum::instruments

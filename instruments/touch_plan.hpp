@@ -16,6 +16,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "core/pose.hpp"
@@ -61,5 +62,10 @@ struct TouchPlan {
 };
 
 [[nodiscard]] Result<TouchPlan> touch_plan(const kinematics::Machine& machine);
+
+// "A = -30 deg, C = 120 deg", "point 6 (-X of column 2)", and both together.
+[[nodiscard]] std::string position_text(const TouchPlan& plan, std::size_t tilt, std::size_t turn);
+[[nodiscard]] std::string point_text(std::size_t point);
+[[nodiscard]] std::string place_of(const TouchPlan& plan, const PlannedTouch& touch);
 
 }  // namespace frustum::instruments

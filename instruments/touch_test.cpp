@@ -30,12 +30,6 @@ AxisPositions turned(const TouchPlan& plan, const PlannedTouch& touch) {
   return q;
 }
 
-std::string place_of(const TouchPlan& plan, const PlannedTouch& touch) {
-  return fmt::format("touch of point {} at A = {:g} deg, C = {:g} deg", touch.point,
-                     plan.tilts[touch.tilt].axis * kDegPerRad,
-                     plan.turns[touch.turn].axis * kDegPerRad);
-}
-
 // The artefact as it is mounted.
 TouchPoint mounted(TouchPoint point, const TouchPlan& plan, const TouchSetup& setup) {
   const Mat3 turn =
@@ -58,7 +52,7 @@ Result<std::vector<TestPose>> touch_poses(const Machine& machine,
       const AxisPositions q = place_tip(machine, ball, probe.tool_length, turned(plan, touch));
       if (!within_travel(machine, q)) {
         return error("axis-overtravel"_id,
-                     fmt::format("{} cannot be reached: {}", place_of(plan, touch),
+                     fmt::format("touch of {} cannot be reached: {}", place_of(plan, touch),
                                  fmt::join(travel_violations(machine, q), "; ")),
                      "check the tool length and the travel of the machine");
       }
@@ -104,11 +98,14 @@ Result<std::vector<double>> touch_readings(const Machine& machine,
     }
     if (!touched || !(std::abs(s - probe.ball_radius) <= kTouchApproach)) {
       return error("touch-missed"_id,
-                   fmt::format("{}: no surface within {:g} mm of its nominal place",
+                   fmt::format("touch of {}: no surface within {:g} mm of its nominal place",
                                place_of(plan, touch), kTouchApproach),
                    "check the errors and the set-up");
     }
-    readings.push_back(s - probe.ball_radius);
+    // The tool keeps its attitude: what it faces turns with the table.
+    const Vec3 outward =
+        nominal_pose(machine, poses[i].at.q, 0.0).rotation.transpose() * nominal.normal;
+    readings.push_back(s - probe.ball_radius - pre_travel(probe.lobes, outward));
   }
   return readings;
 }

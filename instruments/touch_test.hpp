@@ -4,8 +4,9 @@
 //            table, p + s n, and goes where the chain with errors takes it; it touches at
 //              (c(s) + R ds - q) . m = r
 //            with the actual plane (q, m), the ball radius r, and ds, how far the ball is off the
-//            tip. The reading s - r is how far out the surface seems to be. Nothing is linear in
-//            the errors
+//            tip. The reading s - r, less the pre-travel of the probe in that direction
+//            (probe_lobes.hpp), is how far out the surface seems to be. Nothing is linear in the
+//            errors
 // Units    : mm, rad; normals and offsets in the frame of the table
 // Shape    : a reading a touch of the plan
 // Errors   : axis-overtravel: a touch out of travel; touch-missed: no surface within 10 mm of its
@@ -18,6 +19,7 @@
 
 #include "core/result.hpp"
 #include "instruments/motion_test.hpp"
+#include "instruments/probe_lobes.hpp"
 #include "instruments/touch_plan.hpp"
 #include "kinematics/model/geometric_errors.hpp"
 
@@ -26,6 +28,7 @@ namespace frustum::instruments {
 struct TouchProbe {
   double ball_radius = 3.0;
   double tool_length = 0.0;  // from the gauge point to the centre of the ball
+  ProbeLobes lobes{};
 };
 
 // How probe and artefact are mounted wrongly.

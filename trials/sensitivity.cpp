@@ -16,9 +16,6 @@ using kinematics::GeometricErrors;
 using kinematics::Machine;
 using programs::TestPiece;
 
-// Steps by which measured points are moved: small against every curvature, large against rounding.
-constexpr DifferenceSteps kEvaluationSteps{1e-3, 1e-6};
-
 double step_of(const Parameter& parameter, const DifferenceSteps& steps) {
   return parameter.angular ? steps.angle : steps.length;
 }
@@ -28,18 +25,6 @@ TrialOptions quiet(TrialOptions options) {
   options.measure = true;
   options.on_stage = {};
   return options;
-}
-
-// A trial whose measured features were all cut by what should cut them: a derivative of anything
-// else would be of no use to anybody.
-Result<Trial> clean_trial(const Machine& machine, const GeometricErrors& errors,
-                          const TestPiece& piece, const CommandedPiece& commanded,
-                          const TrialOptions& options) {
-  auto trial = run_trial(machine, errors, piece, commanded, {}, quiet(options));
-  if (!trial || trial->wrong_cuts.empty()) return trial;
-  Diagnostics wrong = std::move(trial->wrong_cuts);
-  for (Diagnostic& d : wrong) d.severity = Severity::error;
-  return wrong;
 }
 
 // Characteristics of the measured part when every point moves along its normal.
@@ -125,18 +110,26 @@ Result<Sensitivity> sensitivity(const Machine& machine, const GeometricErrors& e
   if (!trial) return trial.error();
   const auto gains = surface_gains(machine, piece, *trial, parameters);
   if (!gains) return gains.error();
-  const MovedPoints points(piece, trial->measurement);
-  const auto centre = points.characteristics(Eigen::VectorXd::Zero(gains->odd.rows()));
+  return sensitivity_of_moves(piece, trial->measurement, *gains, parameters);
+}
+
+Result<Sensitivity> sensitivity_of_moves(const TestPiece& piece,
+                                         const metrology::Measurement& measurement,
+                                         const SurfaceGains& gains,
+                                         std::span<const Parameter> parameters,
+                                         const DifferenceSteps& steps) {
+  const MovedPoints points(piece, measurement);
+  const auto centre = points.characteristics(Eigen::VectorXd::Zero(gains.odd.rows()));
   if (!centre) return centre.error();
-  Sensitivity s = empty_for(trial->measurement, parameters);
+  Sensitivity s = empty_for(measurement, parameters);
   // What went wrong, by columns: the first one counts, whichever thread finds it.
   std::vector<Diagnostics> problems(parameters.size());
   tbb::parallel_for(std::size_t{0}, parameters.size(), [&](std::size_t column) {
     const auto k = static_cast<Eigen::Index>(column);
     // What moves no point changes no characteristic.
-    if (gains->odd.col(k).isZero(0.0) && gains->even.col(k).isZero(0.0)) return;
-    const double step = step_of(parameters[column], kEvaluationSteps);
-    const Eigen::VectorXd odd = step * gains->odd.col(k), even = step * gains->even.col(k);
+    if (gains.odd.col(k).isZero(0.0) && gains.even.col(k).isZero(0.0)) return;
+    const double step = step_of(parameters[column], steps);
+    const Eigen::VectorXd odd = step * gains.odd.col(k), even = step * gains.even.col(k);
     const auto plus = points.characteristics(even + odd);
     const auto minus = points.characteristics(even - odd);
     if (plus && minus) {
@@ -149,6 +142,16 @@ Result<Sensitivity> sensitivity(const Machine& machine, const GeometricErrors& e
     if (!problem.empty()) return std::move(problem);
   }
   return s;
+}
+
+Result<Trial> clean_trial(const Machine& machine, const GeometricErrors& errors,
+                          const TestPiece& piece, const CommandedPiece& commanded,
+                          const TrialOptions& options) {
+  auto trial = run_trial(machine, errors, piece, commanded, {}, quiet(options));
+  if (!trial || trial->wrong_cuts.empty()) return trial;
+  Diagnostics wrong = std::move(trial->wrong_cuts);
+  for (Diagnostic& d : wrong) d.severity = Severity::error;
+  return wrong;
 }
 
 Result<Sensitivity> sensitivity_by_differences(const Machine& machine,

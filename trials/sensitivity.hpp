@@ -53,10 +53,28 @@ struct Sensitivity {
                                               std::span<const Parameter> parameters,
                                               const TrialOptions& options = {});
 
+// A trial with a CMM without errors, all of whose measured features were cut by what should cut
+// them: a derivative of anything else would be of no use to anybody.
+[[nodiscard]] Result<Trial> clean_trial(const kinematics::Machine& machine,
+                                        const kinematics::GeometricErrors& errors,
+                                        const programs::TestPiece& piece,
+                                        const CommandedPiece& commanded,
+                                        const TrialOptions& options);
+
 struct DifferenceSteps {
   double length = 1e-3;  // mm
   double angle = 1e-6;   // rad
 };
+struct SurfaceGains;
+// How the characteristics answer when each parameter moves the measured points along their normals
+// by its gains. Steps are small against every curvature and large against rounding, and for forms
+// large against that of the part itself.
+[[nodiscard]] Result<Sensitivity> sensitivity_of_moves(const programs::TestPiece& piece,
+                                                       const metrology::Measurement& measurement,
+                                                       const SurfaceGains& gains,
+                                                       std::span<const Parameter> parameters,
+                                                       const DifferenceSteps& steps = {});
+
 [[nodiscard]] Result<Sensitivity> sensitivity_by_differences(
     const kinematics::Machine& machine, const kinematics::GeometricErrors& errors,
     const programs::TestPiece& piece, std::span<const Parameter> parameters,

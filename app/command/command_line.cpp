@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <type_traits>
 
 #include "app/view/console.hpp"
 #include "core/spelling.hpp"
@@ -75,9 +76,27 @@ Command Command::command(const std::string& name, const std::string& help) {
 
 void Command::needs_a_command() { app_->require_subcommand(1); }
 
+namespace {
+
+// The library takes -1 for the largest number there is.
+std::string no_sign(const std::string& text) {
+  const auto first = text.find_first_not_of(' ');
+  const bool negative = first != std::string::npos && text[first] == '-';
+  return negative ? "must be 0 or more, is " + text : "";
+}
+template <typename Target>
+constexpr bool kIsCount =
+    std::is_same_v<Target, unsigned> || std::is_same_v<Target, std::uint64_t> ||
+    std::is_same_v<Target, std::optional<unsigned>> ||
+    std::is_same_v<Target, std::optional<std::uint64_t>>;
+
+}  // namespace
+
 template <typename Target>
 Option Command::option(const std::string& names, Target& target, const std::string& help) {
-  return Option(app_->add_option(names, target, help));
+  CLI::Option* option = app_->add_option(names, target, help);
+  if constexpr (kIsCount<Target>) option->check(no_sign);
+  return Option(option);
 }
 
 template Option Command::option(const std::string&, std::string&, const std::string&);

@@ -33,7 +33,7 @@ int show_identification(const IdentifyOptions& options) {
     std::cout << identification_text(*study, *result);
   }
   const auto& identification = result->identification;
-  const bool holds = identification.observability.complete() && !identification.agreement.rejected;
+  const bool holds = is_answered(*result) && !identification.agreement.rejected;
   return holds ? kDone : kOutOfTolerance;
 }
 
@@ -50,8 +50,9 @@ void add_identify(Command& program) {
       .required();
   add_answer_options(command, *o);
   command.footer(
-      "Exit code 1: errors that the measurements do not identify, or measurements that the machine "
-      "model does not explain.\n"
+      "Exit code 1: errors of the study that the measurements do not identify (what they leave "
+      "open "
+      "of set-ups does not count), or measurements that the machine model does not explain.\n"
       "Example: frustum identify examples/ibaraki-2010/study.toml");
   command.computes([o] { return show_identification(*o); });
 }

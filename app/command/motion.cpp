@@ -5,6 +5,7 @@
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
+#include "app/motion/probe_motion.hpp"
 #include "app/motion/test_file.hpp"
 #include "app/motion/trace_motion.hpp"
 #include "app/motion/vectors_motion.hpp"
@@ -17,9 +18,10 @@
 namespace frustum::app {
 namespace {
 
-int show_motion(const Result<MotionAnswer>& answer, const AnswerOptions& options,
-                const std::string& out, const std::string& program = {}) {
+int show_motion(Result<MotionAnswer> answer, const AnswerOptions& options, const std::string& out,
+                const std::string& program = {}) {
   if (!answer) return refuse(answer.error(), options);
+  add_warnings(*answer);
   if (answer->program && !program.empty()) {
     const auto written = write_whole_file(program, answer->program->text);
     if (!written) return refuse(written.error(), options);
@@ -91,7 +93,12 @@ constexpr const char* kFeedOfTheTip = "mm/min of the tip, for --dynamics";
 template <typename Words>
 void runs_test(Command& command, const std::shared_ptr<Words>& words) {
   command.runs([words] {
-    auto answer = answer_of(TestWords(*words));
+    auto answer = with_progress(*words, "motion", [&](report::Progress& progress) {
+      words->progress = &progress;
+      auto found = answer_of(TestWords(*words));
+      words->progress = nullptr;
+      return found;
+    });
     Words named = *words;
     if (answer && answer->program && words->nc.file.empty() && !words->out.empty()) {
       named.nc.file = (std::filesystem::path(words->out) / answer->program->name).string();
@@ -244,6 +251,16 @@ void add_diagonal(Command& tests) {
   runs_test(command, words);
 }
 
+void add_lobe_options(Command& command, LobeWords& words) {
+  command.option("--pretravel", words.constant,
+                 "Of the probe, the same in every direction, for example 5um (default: none)");
+  command.option("--lobe", words.amplitude,
+                 "Amplitude of its three-lobed part across the stylus, for example 1um (default: "
+                 "none)");
+  command.option("--lobe-phase", words.phase,
+                 "Degrees about the stylus from X to a lobe (default 0)");
+}
+
 void add_touch(Command& tests) {
   auto words = std::make_shared<TouchWords>();
   Command command = tests.command(
@@ -252,6 +269,7 @@ void add_touch(Command& tests) {
                       "Two standard deviations of a touch, for example 0.35um (default: none)");
   command.option("--repeat", words->repeat, "Calibrations whose scatter is shown (default 1)")
       .within(1, kMostCalibrations);
+  add_lobe_options(command, words->lobes);
   command.footer(
       "In --setup, ball is that of the probe, table_ball the artefact. --out also writes "
       "errors.toml, the maps as an error file, touches.csv, which `motion trace` reads, and "
@@ -260,6 +278,42 @@ void add_touch(Command& tests) {
       "Example: frustum motion touch --machine ac-probe --errors ibaraki-position-dependent "
       "--noise 0.35um --out touch");
   runs_test(command, words);
+}
+
+void add_probe(Command& tests) {
+  auto words = std::make_shared<ProbeWords>();
+  Command command = tests.command(
+      "probe", "The cut part of a job on the machine that cut it: which errors cancel there");
+  command.option("job,--job", words->job, "Job file with an inspection plan").required();
+  add_error_options(command, words->overrides.errors);
+  command.option("--tool-radius-error", words->overrides.tool_radius_error, "for example 2um");
+  command.option("--at", words->at,
+                 "\"A=0,C=0;A=-90,C=0\": rotary poses, degrees; each point is probed at the first "
+                 "from which it is reached (default: Z of the workpiece along the tool)");
+  command.option("--tool-length", words->tool_length,
+                 "mm from the gauge point to the centre of the ball (default: length of the job's "
+                 "first tool)");
+  command.option("--setup", words->setup,
+                 "\"ball=10,-5,3\" (um): ball of the probe off the tip, in the frame of the tool");
+  command.option("--noise", words->noise,
+                 "Two standard deviations of a touch, for example 0.35um (default: none)");
+  command.option("--seed", words->seed, "Of the noise (default 1)");
+  add_lobe_options(command, words->lobes);
+  command.option("--measured", words->measured,
+                 "CSV that the probing program has logged, in place of simulated touches");
+  command.option("--out", words->out,
+                 "Folder for motion.html, motion.json, touches.csv, points.csv (centres of the "
+                 "ball in the frame of the plan) and the probing programs probe.ngc, probe.nc, "
+                 "probe.mpf and probe.h");
+  add_answer_options(command, *words);
+  command.footer(
+      "The ball and the ways of approach are those of the plan.\n"
+      "Example: frustum motion probe examples/cone/job.toml --noise 0.35um --out probed");
+  command.computes([words] {
+    auto answer =
+        with_progress(*words, "probe", [&](report::Progress&) { return probe_answer(*words); });
+    return show_motion(std::move(answer), *words, words->out);
+  });
 }
 
 struct RunWords : AnswerOptions {
@@ -283,9 +337,17 @@ void add_motion_run(Command& tests) {
   command.runs([words] {
     auto test = read_test_file(words->file);
     if (!test) return refuse(test.error(), *words);
-    common_words(*test).errors = words->errors;
-    if (words->servo_lag) common_words(*test).nc.servo_lag = true;
-    return show_motion(answer_of(*test), *words, words->out);
+    MotionWords& common = common_words(test->words);
+    common.errors = words->errors;
+    if (words->servo_lag) common.nc.servo_lag = true;
+    auto answer = with_progress(*words, "motion", [&](report::Progress& progress) {
+      common.progress = &progress;
+      auto found = answer_of(test->words);
+      common.progress = nullptr;
+      return found;
+    });
+    if (!answer) return refuse(in_test_file(*test, answer.error()), *words);
+    return show_motion(std::move(answer), *words, words->out);
   });
 }
 
@@ -304,6 +366,14 @@ void add_trace(Command& tests) {
   command.option("--length", words->length, "Of the bar, mm (default: as the file says)");
   command.option("--capture", words->capture,
                  "From,to in degrees: the arc over which times are spread (default 0,360)");
+  command
+      .option("--angle", words->angle,
+              "feed: a recording by time, from before the bar comes in to after it has gone out; "
+              "the way between is divided evenly (default: angles, or times over the capture)")
+      .one_of({"command", "feed"});
+  command.option("--overshoot", words->overshoot,
+                 "For --angle feed: degrees before and after the capture (default 180 in XY, else "
+                 "2)");
   command.option("--stroke", words->stroke, "Of the bar to either side, mm (default 1)");
   command.option("--axis", words->axis, "The axis of a line");
   command.option("--machine", words->machine, "The machine of a touch-trigger calibration");
@@ -373,6 +443,7 @@ void add_motion(Command& program) {
   add_line(tests);
   add_diagonal(tests);
   add_touch(tests);
+  add_probe(tests);
   add_motion_run(tests);
   add_trace(tests);
   add_vectors(tests);

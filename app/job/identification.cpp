@@ -216,16 +216,38 @@ Result<calibration::PieceObservations> observations_of_study(const Study& study,
   return calibration::joint_observations(std::move(pieces), *std::move(motions));
 }
 
+bool is_answered(const StudyResult& result) {
+  const auto& estimates = result.identification.estimates;
+  return std::all_of(estimates.begin(),
+                     estimates.begin() + static_cast<std::ptrdiff_t>(result.asked),
+                     [](const calibration::Estimate& e) { return e.value.has_value(); });
+}
+
 Result<StudyResult> identify_study(const Study& study) {
   auto all = unknown_causes(study.machine(), study.unknowns, study.known);
   if (!all) return std::move(all).error();
   add_tool_radius(study, *all);
-  const auto observations = observations_of_study(study, *all);
+  auto observations = observations_of_study(study, *all);
   if (!observations) return observations.error();
   auto refined = estimate(study, *observations);
   if (!refined) return std::move(refined).error();
+  if (!study.motions.empty() && !refined->identification.agreement.rejected) {
+    // What the tests do not see of their mountings shows by the errors that were found; of a model
+    // that does not explain the readings those say nothing.
+    const auto unseen =
+        unseen_mounting_covariance(study.motions, observations->observations.unknowns, all->causes,
+                                   refined->identification.working_point);
+    if (!unseen) return unseen.error();
+    const Eigen::Index rows = unseen->rows();
+    observations->observations.covariance.bottomRightCorner(rows, rows) += *unseen;
+    refined = estimate(study, *observations);
+    if (!refined) return std::move(refined).error();
+  }
   StudyResult result;
   result.identification = std::move(refined->identification);
+  result.asked = study.unknowns.size();
+  result.mountings = found_mountings(study.motions, observations->observations.unknowns,
+                                     all->causes, result.identification.working_point);
   result.changes = std::move(refined->changes);
   result.left_out = observations->left_out;
   auto shares = calibration::information_shares(observations->observations,

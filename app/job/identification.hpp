@@ -13,6 +13,7 @@
 #include "calibration/design/step_recipes.hpp"
 #include "calibration/identify/identification.hpp"
 #include "calibration/identify/information.hpp"
+#include "calibration/identify/motion_observations.hpp"
 #include "calibration/identify/observability.hpp"
 
 namespace frustum::app {
@@ -25,6 +26,8 @@ struct Remedy {
 
 struct StudyResult {
   calibration::Identification identification{};
+  std::size_t asked = 0;  // of its estimates: those that the study lists; others are of set-ups
+  std::vector<calibration::FoundMounting> mountings{};  // of the motion tests, one by one
   std::vector<double> changes{};  // of each round of refinement, in standard uncertainties
   calibration::InformationShares shares{};
   std::vector<std::string> left_out{};  // measured, but without a derivative
@@ -32,6 +35,9 @@ struct StudyResult {
   // The published recipe as printed, and with its equations (12) and (20) put right.
   std::optional<calibration::Recipe> recipe{}, corrected_recipe{};
 };
+
+// Whether every error that was asked for has a value.
+[[nodiscard]] bool is_answered(const StudyResult& result);
 
 [[nodiscard]] Result<StudyResult> identify_study(const Study& study);
 

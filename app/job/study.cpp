@@ -173,6 +173,20 @@ struct Parts {
   }
 };
 
+// The same test measured again counts as another: its rows have a name of their own.
+void rename_if_known(calibration::MeasuredMotion& motion, const std::vector<StudyMotion>& others) {
+  const std::string given = motion.name;
+  const auto is_known = [&](const std::string& name) {
+    return std::ranges::any_of(others, [&](const auto& o) { return o.motion.name == name; });
+  };
+  for (int k = 2; is_known(motion.name); ++k) motion.name = fmt::format("{} ({})", given, k);
+  if (motion.name == given) return;
+  for (calibration::Row& row : motion.names) {
+    row.name = motion.name + row.name.substr(given.size());
+    row.group = motion.name;
+  }
+}
+
 Parts read_parts(const TomlDocument& document, const MotionReader& read_motion, bool planned) {
   Parts found;
   const std::vector<TomlTable> tables = document.root().tables("part");
@@ -187,6 +201,7 @@ Parts read_parts(const TomlDocument& document, const MotionReader& read_motion, 
     const std::optional<double> hours = read_hours(table);
     if (auto motion = read_motion(table)) {
       if (!*motion) continue;
+      rename_if_known((*motion)->motion, found.motions);
       found.motions.push_back(**std::move(motion));
       found.motions.back().hours = hours;
     } else {

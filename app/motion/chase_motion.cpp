@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/motion/motion_dynamics.hpp"
+#include "app/motion/setup_found.hpp"
 #include "app/motion/test_program.hpp"
 #include "app/view/text_table.hpp"
 #include "core/decimal.hpp"
@@ -75,7 +76,7 @@ void draw_vectors(MotionAnswer& answer, const std::vector<instruments::TestPose>
 }  // namespace
 
 Result<instruments::MotionTest> chase_of_words(const ChaseWords& words, const MotionSetup& setup) {
-  const auto ball = place_of(words.ball, "--ball");
+  const auto ball = place_of(words.ball, words.option("ball"));
   if (!ball) return ball.error();
   if (words.at == "maps") {
     const auto plan = instruments::touch_plan(setup.machine);
@@ -83,7 +84,7 @@ Result<instruments::MotionTest> chase_of_words(const ChaseWords& words, const Mo
     return instruments::chase_test(setup.machine,
                                    {*ball, instruments::ball_poses(*plan), setup.tool_length});
   }
-  const auto poses = pose_list(setup.machine, words.at);
+  const auto poses = pose_list(setup.machine, words.at, words.option("at"));
   if (!poses) return poses.error();
   return instruments::chase_test(setup.machine, {*ball, *poses, setup.tool_length});
 }
@@ -102,8 +103,9 @@ Result<std::vector<Vec3>> chase_deviations(const ChaseWords& words, const Motion
   }
   for (std::size_t i = 0; i < ways.size(); ++i) run.poses[i].parameter = ways[i];
   if (words.dynamics != "off" && !(ways.back() > 0.0)) {
-    return error("no-motion"_id, "--dynamics needs poses between which a rotary axis turns",
-                 "for example --at \"C=0;C=90\"");
+    return error("no-motion"_id,
+                 words.option("dynamics") + " needs poses between which a rotary axis turns",
+                 "for example \"C=0;C=90\"");
   }
   const auto axes = [&](double way) {
     const auto after = std::ranges::upper_bound(ways, way);
@@ -170,6 +172,7 @@ Result<MotionAnswer> chase_answer(const ChaseWords& words) {
   answer.document["axes"] = axes_of(setup->machine, test->poses);
   answer.files["trace.csv"] = instruments::pose_csv(setup->machine, test->poses, vectors);
   answer.document["evaluation"] = Document{{"rms_um", rms}};
+  add_setup_found(answer, vectors);
   draw_vectors(answer, test->poses, vectors, setup->machine);
   answer.text += vectors_text(test->poses, vectors, setup->machine);
   answer.text += fmt::format("root mean square {:.3f} um, in the frame of the table\n", rms);

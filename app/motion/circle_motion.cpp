@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "app/motion/circle_dynamics.hpp"
 #include "app/motion/circle_report.hpp"
 #include "app/motion/motion_dynamics.hpp"
+#include "app/motion/setup_found.hpp"
 #include "app/motion/setup_sheet.hpp"
 #include "app/motion/test_program.hpp"
 #include "core/constants.hpp"
@@ -55,21 +58,20 @@ std::optional<Diagnostics> add_circle_program(MotionAnswer& answer, const Circle
   if (auto problem = add_program(answer, program)) return problem;
   std::vector<double> readings = traces[0].deviation;
   readings.insert(readings.end(), traces[1].deviation.begin(), traces[1].deviation.end());
-  add_setup_sheet(answer,
-                  {setup.machine, test, *program, "phi", words.stroke, std::move(readings)});
-  return std::nullopt;
+  return add_setup_sheet(answer,
+                         {setup.machine, test, *program, "phi", words.stroke, std::move(readings)});
 }
 
 }  // namespace
 
 Result<CircleTest> circle_of_words(const CircleWords& words, const MotionSetup& setup) {
   const auto plane = instruments::plane_named(words.plane);
-  if (!plane) return unknown_word("--plane", words.plane, {"XY", "YZ", "ZX"});
-  const auto centre = place_of(words.centre, "--center");
+  if (!plane) return unknown_word(words.option("plane"), words.plane, {"XY", "YZ", "ZX"});
+  const auto centre = place_of(words.centre, words.option("center"));
   if (!centre) return centre.error();
-  const auto angles = angle_list(words.angles);
+  const auto angles = angle_list(words.angles, words.option("angles"));
   if (!angles) return angles.error();
-  const auto held = held_axes(setup.machine, words.at, LinearAxes::moved);
+  const auto held = held_axes(setup.machine, words.at, words.option("at"), kinematics::kLinearAxes);
   if (!held) return held.error();
   CircleTest circle{.plane = *plane,
                     .length = words.length,
@@ -98,7 +100,7 @@ Result<MotionAnswer> circle_answer(const CircleWords& words) {
   // Of a program's run the analytic samples are what it is compared with.
   const auto instrument = words.nc.run ? instruments::Instrument{} : setup->instrument;
   std::vector<CircleTrace> traces;
-  MotionTest ccw;
+  MotionTest ccw, cw;
   for (const Sense sense : instruments::kSenses) {
     circle->sense = sense;
     auto test = circle_test(setup->machine, *circle);
@@ -115,7 +117,7 @@ Result<MotionAnswer> circle_answer(const CircleWords& words) {
       return *std::move(problem);
     }
     traces.push_back({sense, circle->angles, std::move(readings)});
-    if (sense == Sense::ccw) ccw = *std::move(test);
+    (sense == Sense::ccw ? ccw : cw) = *std::move(test);
   }
   double difference = 0.0;
   if (words.nc.run) {
@@ -138,6 +140,9 @@ Result<MotionAnswer> circle_answer(const CircleWords& words) {
   answer.document["axes"] = axes_of(setup->machine, ccw.poses);
   answer.files["trace.csv"] = circle_csv(traces, circle->plane, circle->length);
   add_circle_evaluation(answer, traces, circle->length, circle->plane);
+  const std::array runs{BarReadings{ccw, traces[0].deviation},
+                        BarReadings{cw, traces[1].deviation}};
+  add_setup_found(answer, runs);
   const auto errors = instruments::location_unknowns(setup->machine);
   const std::vector gains{
       instruments::bar_gains(setup->machine, errors, instruments::thinned(ccw, kPosesThatTell))};

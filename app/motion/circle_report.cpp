@@ -8,6 +8,7 @@
 #include "app/view/text_table.hpp"
 #include "core/decimal.hpp"
 #include "instruments/circle_evaluation.hpp"
+#include "instruments/reversal_spikes.hpp"
 
 namespace frustum::app {
 namespace {
@@ -226,6 +227,50 @@ void draw_traces(MotionAnswer& answer, const std::vector<CircleTrace>& traces,
   }
 }
 
+// Spikes after reversals, where there are any.
+void add_spikes(MotionAnswer& answer, Document& doc, const std::vector<CircleTrace>& traces,
+                instruments::Plane plane, double length) {
+  const auto found = instruments::reversal_spikes(traces, length);
+  if (!found) return;
+  Document spikes;
+  report::MotionTable table{.heading = "Spikes after reversals",
+                            .columns = {"axis", ">height, um", ">sd, um", ">dies away over, mm"}};
+  bool seen = false;
+  for (std::size_t k = 0; k < found->axes.size(); ++k) {
+    const instruments::Spike& spike = found->axes.at(k);
+    const std::string axis(1, to_char(axes_of(plane)[k]));
+    if (!spike.seen) {
+      spikes[axis] = {};
+      continue;
+    }
+    seen = true;
+    spikes[axis] = Document{{"height_um", spike.height * kUmPerMm},
+                            {"sd_um", spike.sd * kUmPerMm},
+                            {"over_mm", spike.distance}};
+    table.rows.push_back(
+        {axis, um_text(spike.height), um_text(spike.sd), fixed_decimal(spike.distance, 3)});
+  }
+  if (seen) {
+    Document value;
+    for (std::size_t k = 0; k < kSignatureTerms; ++k) {
+      const auto term = static_cast<SignatureTerm>(k);
+      value[text_of(term).name] = found->signature.at(k) * unit_of(term);
+    }
+    spikes["signature_without"] = value;
+    table.note = fmt::format(
+        "Height: how far the axis lags just after it has turned back; it dies away as exp(-travel "
+        "/ "
+        "distance). Without spikes the backlash is {} and {} um; {} um rms is left.",
+        um_text(found->signature.at(static_cast<std::size_t>(SignatureTerm::backlash_1))),
+        um_text(found->signature.at(static_cast<std::size_t>(SignatureTerm::backlash_2))),
+        um_text(found->residual_rms));
+    answer.page.tables.push_back(table);
+    answer.text += "\n" + table.heading + "\n" + text_of_table(table);
+  }
+  spikes["residual_rms"] = found->residual_rms * kUmPerMm;
+  doc["spikes"] = spikes;
+}
+
 void warn(MotionAnswer& answer, const Diagnostics& problems) {
   for (const Diagnostic& each : problems) {
     answer.warnings.push_back(warning(each.id, "no evaluation: " + each.message, each.hint));
@@ -250,6 +295,7 @@ void add_circle_evaluation(MotionAnswer& answer, const std::vector<CircleTrace>&
     answer.page.contributions = bars_of(ranked, plane);
     answer.text +=
         "\n" + text_of_table(answer.page.tables.back(), 1) + "\n" + contributions_text(ranked);
+    add_spikes(answer, doc, traces, plane, length);
   } else {
     warn(answer, found.error());
     doc["signature"] = {};

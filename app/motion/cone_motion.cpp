@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/motion/motion_dynamics.hpp"
+#include "app/motion/setup_found.hpp"
 #include "app/motion/test_program.hpp"
 #include "app/motion/turn_report.hpp"
 #include "core/constants.hpp"
@@ -19,11 +20,15 @@ using instruments::ConeTest;
 
 Result<ConeTest> cone_of_words(const ConeMotionWords& words, const MotionSetup& setup) {
   if (words.sense != "normal" && words.sense != "radial") {
-    return unknown_word("--sense", words.sense, {"normal", "radial"});
+    return unknown_word(words.option("sense"), words.sense, {"normal", "radial"});
   }
-  const auto centre = place_of(words.centre, "--center");
+  if (!words.at.empty()) {
+    return at_option(
+        error("axis-moved"_id, "the cone moves all axes: 'at' holds none", "leave it out"), "at");
+  }
+  const auto centre = place_of(words.centre, words.option("center"));
   if (!centre) return centre.error();
-  const auto angles = angle_list(words.angles);
+  const auto angles = angle_list(words.angles, words.option("angles"));
   if (!angles) return angles.error();
   return ConeTest{.cone_angle = words.cone_angle * kRadPerDeg,
                   .inclination = words.inclination * kRadPerDeg,
@@ -58,7 +63,7 @@ Result<MotionAnswer> cone_answer(const ConeMotionWords& words) {
   if (!bar) return bar.error();
   const std::vector<double>& readings = bar->readings;
   MotionAnswer answer = answer_of("cone", fmt::format("Cone path, bar {}", words.sense), *setup);
-  add_bar(answer, words, *setup, *test, "phi", *bar);
+  if (auto problem = add_bar(answer, words, *setup, *test, "phi", *bar)) return *std::move(problem);
   answer.document["sense"] = words.sense;
   answer.document["cone_angle_deg"] = words.cone_angle;
   answer.document["inclination_deg"] = words.inclination;
@@ -72,6 +77,8 @@ Result<MotionAnswer> cone_answer(const ConeMotionWords& words) {
   answer.document["reading_um"] = in_um(readings);
   answer.document["axes"] = axes_of(setup->machine, test->poses);
   add_turn_evaluation(answer, "phi", cone->angles, readings);
+  const BarReadings seen{*test, bar->readings};
+  add_setup_found(answer, std::span(&seen, 1));
   const auto errors = instruments::location_unknowns(setup->machine);
   const std::vector gains{
       instruments::bar_gains(setup->machine, errors, instruments::thinned(*test, kPosesThatTell))};

@@ -19,6 +19,11 @@ class DocumentWriter {
 
  private:
   static ordered_json of(std::monostate) { return nullptr; }
+  static ordered_json of(const std::vector<std::vector<Document::Field>>& documents) {
+    ordered_json list = ordered_json::array();
+    for (const auto& fields : documents) list.push_back(of(fields));
+    return list;
+  }
   template <typename Value>
   static ordered_json of(const Value& value) {
     return value;
@@ -26,6 +31,12 @@ class DocumentWriter {
 };
 
 DocumentValue::DocumentValue(Document fields) : value_(fields.fields()) {}
+
+DocumentValue::DocumentValue(const std::vector<Document>& list) {
+  std::vector<std::vector<Field>> all;
+  for (const Document& each : list) all.push_back(each.fields());
+  value_ = std::move(all);
+}
 
 DocumentValue& Document::operator[](std::string_view name) {
   const auto at = std::ranges::find(fields_, name, &Field::first);

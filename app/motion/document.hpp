@@ -32,6 +32,7 @@ class DocumentValue {
   DocumentValue(Lists lists) : value_(std::move(lists)) {}                     // NOLINT
   DocumentValue(std::vector<Lists> lists) : value_(std::move(lists)) {}        // NOLINT
   DocumentValue(Document fields);                                              // NOLINT
+  DocumentValue(const std::vector<Document>& list);                            // NOLINT
   DocumentValue(const std::optional<double>& number) {                         // NOLINT
     if (number) value_ = *number;
   }
@@ -40,7 +41,8 @@ class DocumentValue {
   friend class DocumentWriter;
   using Field = std::pair<std::string, DocumentValue>;
   std::variant<std::monostate, double, std::uint64_t, std::string, std::vector<double>,
-               std::vector<std::string>, Lists, std::vector<Lists>, std::vector<Field>>
+               std::vector<std::string>, Lists, std::vector<Lists>, std::vector<Field>,
+               std::vector<std::vector<Field>>>
       value_{};
 };
 

@@ -13,6 +13,7 @@
 #include "instruments/line_straightness.hpp"
 #include "instruments/line_test.hpp"
 #include "instruments/readings.hpp"
+#include "instruments/traces/line_trace_file.hpp"
 
 namespace frustum::app {
 namespace {
@@ -167,10 +168,10 @@ std::optional<Diagnostics> add_positioning(MotionAnswer& answer, const std::vect
 
 Result<LineRuns> line_of_words(const LineWords& words, const MotionSetup& setup) {
   const auto axis = kinematics::axis_named(words.axis);
-  if (!axis) return unknown_word("--axis", words.axis, {"X", "Y", "Z"});
-  const auto targets = number_list(words.targets, "--targets");
-  if (!targets) return targets.error();
-  const auto held = held_axes(setup.machine, words.at, LinearAxes::held);
+  if (!axis) return unknown_word(words.option("axis"), words.axis, {"X", "Y", "Z"});
+  const auto targets = number_list(words.targets, words.option("targets"));
+  if (!targets) return at_option(targets.error(), words.option("targets"));
+  const auto held = held_axes(setup.machine, words.at, words.option("at"), std::span(&*axis, 1));
   if (!held) return held.error();
   const instruments::AxisLine line{
       .axis = *axis, .targets = *targets, .held = *held, .tool_length = setup.tool_length};
@@ -249,6 +250,7 @@ Result<MotionAnswer> line_answer(const LineWords& words) {
   };
   answer.document["deviations_up_um"] = rows(deviations.up);
   answer.document["deviations_down_um"] = rows(deviations.down);
+  answer.files["trace.csv"] = instruments::line_csv(line->targets, deviations.up, deviations.down);
   if (auto problem = add_positioning(answer, line->targets, deviations.up, deviations.down)) {
     return *std::move(problem);
   }
@@ -270,9 +272,11 @@ Result<MotionAnswer> line_answer(const LineWords& words) {
 
 Result<std::map<std::string, LineTest>> diagonals_of_words(const DiagonalWords& words,
                                                            const MotionSetup& setup) {
-  const auto box = box_of(words.box);
+  const auto box = box_of(words.box, words.option("box"));
   if (!box) return box.error();
-  const auto held = held_axes(setup.machine, words.at, LinearAxes::held);
+  std::vector<AxisLetter> moves;
+  for (const auto& [letter, range] : *box) moves.push_back(letter);
+  const auto held = held_axes(setup.machine, words.at, words.option("at"), moves);
   if (!held) return held.error();
   return instruments::diagonal_lines(
       setup.machine,

@@ -178,6 +178,21 @@ class TestReader {
   const MotionSetup& setup_;
 };
 
+// Faults of the test's file where they name a key of it, else of the table that names the test.
+Result<std::optional<StudyMotion>> refused(const TomlTable& table, const TestFile& test,
+                                           const Diagnostics& problems) {
+  Diagnostics of_file;
+  for (const Diagnostic& each : problems) {
+    if (each.file.empty() && each.key.empty()) {
+      table.fail("test", each);
+    } else {
+      of_file.push_back(each);
+    }
+  }
+  if (of_file.empty()) return std::optional<StudyMotion>{};
+  return in_test_file(test, std::move(of_file));
+}
+
 Result<std::optional<StudyMotion>> read_motion(const TomlTable& table, bool planned) {
   const fs::path file = table.file_path("test");
   MotionEntry entry{.name = table.text_or("name", file.stem().string())};
@@ -205,14 +220,14 @@ Result<std::optional<StudyMotion>> read_motion(const TomlTable& table, bool plan
   auto test = read_test_file(file);
   if (!test) return test.error();
   // Those of the virtual machine; what is looked for here is what was measured.
-  MotionWords& words = common_words(*test);
+  MotionWords& words = common_words(test->words);
   words.of_file = {};
   words.setup.clear();
   auto setup = motion_setup(words);
-  if (!setup) return setup.error();
-  if (std::holds_alternative<TouchWords>(*test)) setup->instrument.noise /= 2.0;  // two sd
-  auto motion = std::visit(TestReader(entry, *setup), *test);
-  if (!motion) return motion.error();
+  if (!setup) return refused(table, *test, setup.error());
+  if (std::holds_alternative<TouchWords>(test->words)) setup->instrument.noise /= 2.0;  // two sd
+  auto motion = std::visit(TestReader(entry, *setup), test->words);
+  if (!motion) return refused(table, *test, motion.error());
   return std::optional(StudyMotion{std::move(setup->machine), *std::move(motion)});
 }
 

@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "core/decimal.hpp"
 #include "instruments/approach.hpp"
 #include "instruments/reach.hpp"
 #include "instruments/readings.hpp"
@@ -86,6 +87,39 @@ MotionAnswer answer_of(const std::string& test, const std::string& title,
         {"Noise", fmt::format("{:g} µm, seed {}", instrument.noise * kUmPerMm, instrument.seed)});
   }
   return answer;
+}
+
+void add_probing_programs(MotionAnswer& answer, const instruments::ProbingProgram& program) {
+  for (const auto& [ending, dialect] :
+       {std::pair{"ngc", parser::Dialect::linuxcnc}, std::pair{"nc", parser::Dialect::fanuc},
+        std::pair{"mpf", parser::Dialect::sinumerik},
+        std::pair{"h", parser::Dialect::heidenhain}}) {
+    answer.files[fmt::format("{}.{}", program.name, ending)] = probing_text(program, dialect);
+  }
+  answer.files[program.name + ".a"] = probing_mask(program);
+}
+
+void add_lobes(MotionAnswer& answer, const instruments::ProbeLobes& lobes) {
+  answer.document["pretravel_um"] =
+      Document{{"constant", lobes.constant * kUmPerMm},
+               {"lobe", lobes.amplitude * kUmPerMm},
+               {"lobe_phase_deg", as_stated(lobes.phase * kDegPerRad)}};
+  if (!lobes.any()) return;
+  answer.page.facts.push_back(
+      {"Pre-travel",
+       fmt::format("{:g} µm, three lobes of {:g} µm at {:g}°", lobes.constant * kUmPerMm,
+                   lobes.amplitude * kUmPerMm, as_stated(lobes.phase * kDegPerRad))});
+}
+
+void add_warnings(MotionAnswer& answer) {
+  std::vector<Document> list;
+  for (const Diagnostic& each : answer.warnings) {
+    list.push_back({{"severity", to_string(each.severity)},
+                    {"id", each.id.text()},
+                    {"message", each.message},
+                    {"hint", each.hint}});
+  }
+  answer.document["diagnostics"] = list;
 }
 
 Result<std::vector<double>> shown_by_bar(const MotionSetup& setup,

@@ -13,6 +13,7 @@
 #include "app/motion/motion_words.hpp"
 #include "instruments/motion_test.hpp"
 #include "instruments/observability.hpp"
+#include "instruments/probing_program.hpp"
 #include "report/page/motion_page.hpp"
 
 namespace frustum::app {
@@ -35,6 +36,15 @@ struct MotionAnswer {
 // and the same.
 [[nodiscard]] MotionAnswer answer_of(const std::string& test, const std::string& title,
                                      const MotionSetup& setup);
+
+// The probing program for each control, and Klartext's mask, among the files.
+void add_probing_programs(MotionAnswer& answer, const instruments::ProbingProgram& program);
+
+// The pre-travel of a probe in the document, and on the page where there is some.
+void add_lobes(MotionAnswer& answer, const instruments::ProbeLobes& lobes);
+
+// Puts the warnings into the document.
+void add_warnings(MotionAnswer& answer);
 
 // Millimetres and rad as they are shown.
 [[nodiscard]] std::vector<double> in_um(std::vector<double> mm);

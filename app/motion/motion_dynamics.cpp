@@ -92,10 +92,14 @@ class TimedRun {
 std::optional<Diagnostic> without_use(const MotionWords& words, const std::optional<double>& feed) {
   if (words.dynamics != "off") return std::nullopt;
   if (!feed && !words.jerk) return std::nullopt;
-  return error("missing-option"_id,
-               fmt::format("{} is for --dynamics: without it the test is read at rest",
-                           feed ? "--feed" : "--jerk"),
-               "add --dynamics linear, or leave it out");
+  const std::string option = words.option(feed ? "feed" : "jerk"),
+                    dynamics = words.option("dynamics");
+  return at_option(
+      error("missing-option"_id,
+            fmt::format("{} is for {}: without it the test is read at rest", option, dynamics),
+            fmt::format("add {}, or leave it out",
+                        words.in_file ? "dynamics = \"linear\"" : "--dynamics linear")),
+      option);
 }
 
 }  // namespace
@@ -104,7 +108,7 @@ Result<MotionDynamics> motion_dynamics(const MotionWords& words, const MotionSet
                                        const std::optional<double>& feed, const AxisPositions& at) {
   const std::vector<std::string> known{"off", "quasi_static", "linear"};
   const auto found = std::ranges::find(known, words.dynamics);
-  if (found == known.end()) return unknown_word("--dynamics", words.dynamics, known);
+  if (found == known.end()) return unknown_word(words.option("dynamics"), words.dynamics, known);
   MotionDynamics moved{static_cast<PathMethod>(found - known.begin()), std::nullopt, {}};
   moved.law.jerk = words.jerk;
   if (moved.method == PathMethod::off) return moved;
@@ -113,8 +117,12 @@ Result<MotionDynamics> motion_dynamics(const MotionWords& words, const MotionSet
                  "leave out dynamics, or program");
   }
   if (!feed) {
-    return error("missing-option"_id, "--dynamics needs --feed: at rest nothing moves the tip",
-                 "for example --feed 10000");
+    const std::string option = words.option("dynamics");
+    return at_option(error("missing-option"_id,
+                           fmt::format("{} needs {}: at rest nothing moves the tip", option,
+                                       words.option("feed")),
+                           words.in_file ? "for example feed = 10000" : "for example --feed 10000"),
+                     option);
   }
   const auto file = find_machine(words.machine, ".");
   if (!file) return file.error();
@@ -192,6 +200,30 @@ std::vector<Vec3> deviations_on(const MotionDynamics& moved, const kinematics::M
   return deviations;
 }
 
+namespace {
+
+// Refused: a run of so many samples that nobody waits for it. Said: how long it takes.
+std::optional<Diagnostic> too_long(const MotionWords& words, const TimedWay& way) {
+  constexpr double kMostSamples = 2e6;
+  const double seconds = std::abs(way.to - way.from) / way.speed;
+  const double samples = seconds / kSampleStep;
+  if (words.progress != nullptr) {
+    words.progress->rename(fmt::format("motion of {:.4g} s in {:.2g} samples", seconds, samples));
+  }
+  if (samples <= kMostSamples) return std::nullopt;
+  const std::string option = words.option("feed");
+  return at_option(
+      error("run-too-long"_id,
+            fmt::format("{} {}: the run takes {:.4g} s, which are {:.2g} samples of {:g} ms; at "
+                        "most {:.2g} are computed",
+                        option, *words.feed, seconds, samples, 1e3 * kSampleStep, kMostSamples),
+            fmt::format("{} of {:.3g} or more: so slowly masses and springs move nothing",
+                        words.in_file ? "feed" : "--feed", *words.feed * samples / kMostSamples)),
+      option);
+}
+
+}  // namespace
+
 Result<std::vector<Vec3>> deviations_of(const MotionWords& words, const MotionSetup& setup,
                                         const instruments::MotionTest& test,
                                         const std::optional<double>& feed, double per_feed,
@@ -207,6 +239,7 @@ Result<std::vector<Vec3>> deviations_of(const MotionWords& words, const MotionSe
                      .to = test.motion.to,
                      .speed = *feed * per_feed,
                      .corners = corners};
+  if (auto problem = too_long(words, way)) return *std::move(problem);
   return deviations_on(*moved, setup.machine, way, setup.tool_length, parameters);
 }
 
@@ -217,8 +250,9 @@ Result<std::vector<Vec3>> deviations_of(const MotionWords& words, const MotionSe
   const auto moved = motion_dynamics(words, setup, feed, line.start);
   if (!moved) return moved.error();
   if (!moved->is_on()) return std::vector<Vec3>{};
-  return deviations_on(*moved, setup.machine, way_of(line, *feed), setup.tool_length,
-                       parameters_on(line));
+  const TimedWay way = way_of(line, *feed);
+  if (auto problem = too_long(words, way)) return *std::move(problem);
+  return deviations_on(*moved, setup.machine, way, setup.tool_length, parameters_on(line));
 }
 
 }  // namespace frustum::app

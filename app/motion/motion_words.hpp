@@ -8,7 +8,9 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/job/error_sources.hpp"
@@ -16,8 +18,10 @@
 #include "core/result.hpp"
 #include "instruments/instrument.hpp"
 #include "instruments/observability.hpp"
+#include "instruments/probe_lobes.hpp"
 #include "instruments/setup_errors.hpp"
 #include "kinematics/model/machine.hpp"
+#include "report/progress.hpp"
 
 namespace frustum::app {
 
@@ -33,7 +37,16 @@ struct ProgramWords {
   [[nodiscard]] bool written() const { return !run && (!file.empty() || !dialect.empty()); }
 };
 
+// The pre-travel of a touch-trigger probe (instruments/probe_lobes.hpp).
+struct LobeWords {
+  std::string constant{};   // "5um"
+  std::string amplitude{};  // "1um"
+  double phase = 0.0;       // degrees
+};
+
 struct MotionWords : AnswerOptions {
+  bool in_file = false;                  // they are keys of a test file
+  report::Progress* progress = nullptr;  // of whoever waits; null: nobody is told
   std::string machine{};
   ErrorWords errors{};
   kinematics::ErrorList of_file{};  // errors of a test file, which those words override
@@ -50,6 +63,9 @@ struct MotionWords : AnswerOptions {
   bool jerk = false;             // the time law limits jerk, too
   ProgramWords nc{};
   std::string out{};
+
+  // What the user has written: "--tool-length", or in a test file "tool_length".
+  [[nodiscard]] std::string option(std::string_view key) const;
 };
 
 struct MotionSetup {
@@ -61,29 +77,40 @@ struct MotionSetup {
   double tool_length = 0.0;
 };
 [[nodiscard]] Result<MotionSetup> motion_setup(const MotionWords& words);
+// Of --setup; a length of 0 or more with its unit, 0 for an empty text; of --pretravel and --lobe.
+[[nodiscard]] Result<instruments::SetupErrors> setup_errors_of(const std::string& text,
+                                                               const std::string& option);
+[[nodiscard]] Result<double> length_of_words(const std::string& text, const std::string& option);
+[[nodiscard]] Result<instruments::ProbeLobes> lobes_of(const LobeWords& words,
+                                                       bool in_file = false);
 
 [[nodiscard]] instruments::SpindleBall spindle_ball_of(const MotionWords& words);
 
 // The feed per second, in mm or degrees; refused: none above 0, and one that nothing asks for.
 [[nodiscard]] Result<std::optional<double>> feed_per_second(const MotionWords& words);
 
-// Held axes; linear ones are refused where the test moves them.
-enum class LinearAxes { moved, held };
-[[nodiscard]] Result<kinematics::AxisPositions> held_axes(const kinematics::Machine& machine,
-                                                          const std::string& text,
-                                                          LinearAxes linear);
+// `option` below: as MotionWords::option says it.
+
+// Held axes; those that the test moves are refused.
+[[nodiscard]] Result<kinematics::AxisPositions> held_axes(
+    const kinematics::Machine& machine, const std::string& text, const std::string& option,
+    std::span<const kinematics::AxisLetter> moved);
 // "A=-90,C=0;A=0,C=60"
 [[nodiscard]] Result<std::vector<kinematics::AxisPositions>> pose_list(
-    const kinematics::Machine& machine, const std::string& text);
+    const kinematics::Machine& machine, const std::string& text, const std::string& option);
 // "X=-200:200,Y=-150:150"
 [[nodiscard]] Result<std::map<kinematics::AxisLetter, kinematics::AxisRange>> box_of(
-    const std::string& text);
+    const std::string& text, const std::string& option);
 [[nodiscard]] Result<Vec3> place_of(const std::string& text, const std::string& option);
 // Degrees to rad; nothing for an empty text.
-[[nodiscard]] Result<std::optional<std::vector<double>>> angle_list(const std::string& text);
+[[nodiscard]] Result<std::optional<std::vector<double>>> angle_list(const std::string& text,
+                                                                    const std::string& option);
 // Of a stroke that is none.
-[[nodiscard]] std::optional<Diagnostic> no_stroke(double stroke);
-// A word among those that are known.
+[[nodiscard]] std::optional<Diagnostic> no_stroke(double stroke, const std::string& option);
+// With the key of a test file that it is about, where the option is one.
+[[nodiscard]] Diagnostics at_option(Diagnostics problems, const std::string& option);
+[[nodiscard]] Diagnostic at_option(Diagnostic problem, const std::string& option);
+// A word that is none of those known.
 [[nodiscard]] Diagnostic unknown_word(const std::string& option, const std::string& word,
                                       const std::vector<std::string>& known);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/motion/motion_dynamics.hpp"
+#include "app/motion/setup_found.hpp"
 #include "app/motion/test_program.hpp"
 #include "app/motion/turn_report.hpp"
 #include "instruments/rotary_test.hpp"
@@ -20,12 +21,12 @@ Result<RotaryTest> rotary_of_words(const RotaryWords& words, const MotionSetup& 
   const std::vector<std::string> directions{"axial", "radial", "tangential"};
   if (words.direction.empty()) {
     return error("direction-missing"_id, "the direction of the bar is not said",
-                 fmt::format("--direction {}", fmt::join(directions, ", ")));
+                 fmt::format("{}: {}", words.option("direction"), fmt::join(directions, ", ")));
   }
   const auto direction = instruments::bar_direction_named(words.direction);
-  if (!direction) return unknown_word("--direction", words.direction, directions);
+  if (!direction) return unknown_word(words.option("direction"), words.direction, directions);
   if (!words.hold.empty() && words.hold != "rotor" && words.hold != "bed") {
-    return unknown_word("--hold", words.hold, {"rotor", "bed"});
+    return unknown_word(words.option("hold"), words.hold, {"rotor", "bed"});
   }
   const auto axis = kinematics::axis_named(words.axis);
   const kinematics::Joint* joint = axis ? setup.machine.joint(*axis) : nullptr;
@@ -34,17 +35,23 @@ Result<RotaryTest> rotary_of_words(const RotaryWords& words, const MotionSetup& 
     for (const auto& each : setup.machine.joints()) {
       if (each.rotary()) rotary.emplace_back(1, to_char(each.letter));
     }
-    return error(
-        "unknown-axis"_id,
-        fmt::format("--axis {} is no rotary axis of machine {}", words.axis, setup.machine.name()),
-        rotary.empty() ? "the machine has none"
-                       : fmt::format("rotary axes: {}", fmt::join(rotary, ", ")));
+    const std::string option = words.option("axis");
+    return at_option(
+        error("unknown-axis"_id,
+              fmt::format("{} {} is no rotary axis of machine {}", option, words.axis,
+                          setup.machine.name()),
+              rotary.empty() ? "the machine has none"
+                             : fmt::format("rotary axes: {}", fmt::join(rotary, ", "))),
+        option);
   }
-  const auto ball = place_of(words.ball, "--ball");
+  const auto ball = place_of(words.ball, words.option("ball"));
   if (!ball) return ball.error();
-  const auto angles = angle_list(words.angles);
+  const auto angles = angle_list(words.angles, words.option("angles"));
   if (!angles) return angles.error();
-  const auto held = held_axes(setup.machine, words.at, LinearAxes::moved);
+  std::vector<kinematics::AxisLetter> moves(kinematics::kLinearAxes.begin(),
+                                            kinematics::kLinearAxes.end());
+  moves.push_back(*axis);
+  const auto held = held_axes(setup.machine, words.at, words.option("at"), moves);
   if (!held) return held.error();
   const kinematics::AxisRange arc = instruments::capture_of(*joint);
   return RotaryTest{
@@ -87,7 +94,8 @@ Result<MotionAnswer> rotary_answer(const RotaryWords& words) {
                                   fmt::format("Axis {}, {} bar held on the {}", words.axis,
                                               words.direction, name_of(rotary->hold)),
                                   *setup);
-  add_bar(answer, words, *setup, *test, words.axis, *bar);
+  if (auto problem = add_bar(answer, words, *setup, *test, words.axis, *bar))
+    return *std::move(problem);
   answer.document["axis"] = words.axis;
   answer.document["direction"] = words.direction;
   answer.document["hold"] = name_of(rotary->hold);
@@ -99,6 +107,8 @@ Result<MotionAnswer> rotary_answer(const RotaryWords& words) {
   answer.document["reading_um"] = in_um(readings);
   answer.document["axes"] = axes_of(setup->machine, test->poses);
   add_turn_evaluation(answer, words.axis, rotary->angles, readings);
+  const BarReadings seen{*test, bar->readings};
+  add_setup_found(answer, std::span(&seen, 1));
   const auto errors = instruments::location_unknowns(setup->machine);
   const std::vector gains{
       instruments::bar_gains(setup->machine, errors, instruments::thinned(*test, kPosesThatTell))};

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/motion/bar_clearance.hpp"
+#include "core/constants.hpp"
 #include "core/decimal.hpp"
+#include "kinematics/model/chain.hpp"
 #include "kinematics/model/inverse.hpp"
 
 namespace frustum::app {
@@ -16,9 +19,87 @@ std::string place_text(const Vec3& v) {
                      fixed_decimal(v.z(), 3));
 }
 
+// Corners of a body in the frame of the table.
+std::vector<Vec3> corners_of(const kinematics::MachineBody& body, const Pose& table_from_part) {
+  std::vector<Vec3> corners;
+  if (const auto* box = std::get_if<kinematics::BoxBody>(&body.shape)) {
+    for (int k = 0; k < 8; ++k) {
+      corners.emplace_back(((k & 1) != 0 ? 0.5 : -0.5) * box->size.x(),
+                           ((k & 2) != 0 ? 0.5 : -0.5) * box->size.y(),
+                           (k & 4) != 0 ? box->size.z() : 0.0);
+    }
+  } else if (const auto* round = std::get_if<kinematics::CylinderBody>(&body.shape)) {
+    constexpr int kCorners = 48;
+    for (int k = 0; k < kCorners; ++k) {
+      const double angle = kTurn * k / kCorners, r = 0.5 * round->diameter;
+      corners.emplace_back(r * std::cos(angle), r * std::sin(angle), 0.0);
+      corners.emplace_back(r * std::cos(angle), r * std::sin(angle), round->height);
+    }
+  }
+  for (Vec3& corner : corners) corner = (table_from_part * body.part_from_body).point(corner);
+  return corners;
+}
+
+// The line of a rotary axis in the frame of the table, with the direction about which its part
+// turns as it grows.
+std::optional<report::BarDrawing::Axis> turning_axis(const kinematics::Machine& machine,
+                                                     const std::string& letter_text,
+                                                     const kinematics::AxisPositions& q) {
+  const auto letter = kinematics::axis_named(letter_text);
+  const kinematics::Joint* joint = letter ? machine.joint(*letter) : nullptr;
+  if (joint == nullptr || !joint->rotary()) return std::nullopt;
+  const kinematics::GeometricErrors none;
+  const kinematics::ForwardChain nominal(machine, none, 0.0);
+  constexpr double kStep = 0.5;  // rad: far from nothing and from half a turn
+  kinematics::AxisPositions on = q;
+  on[*letter] += kStep;
+  const auto part = [&](const kinematics::AxisPositions& at) {
+    return joint->side > 0 ? nominal.bed_from_tool(at) : nominal.bed_from_table(at);
+  };
+  const Pose moved = part(on) * part(q).inverse();
+  const Mat3& r = moved.rotation;
+  const Vec3 direction = Vec3(r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1)).normalized();
+  const Vec3 across = moved.translation - moved.translation.dot(direction) * direction;
+  const Vec3 point = 0.5 * (across + direction.cross(across) / std::tan(0.5 * kStep));
+  const Pose table_from_bed = nominal.bed_from_table(q).inverse();
+  return report::BarDrawing::Axis{table_from_bed.point(point), table_from_bed.direction(direction)};
+}
+
+// What is on the table, with the bar where the program stops for it.
+report::BarDrawing drawing_of(const SetupSheet& sheet, const programs::BarPass& pass) {
+  const auto& machine = sheet.machine;
+  const auto& test = sheet.test;
+  report::BarDrawing drawing{.title = "Set-up on the table",
+                             .table_ball = test.table_ball,
+                             .offset = sheet.program.work_offsets.at(1),
+                             .tool_length = test.tool_length,
+                             .parameter = sheet.parameter + " grows"};
+  constexpr int kLooks = 180;
+  constexpr double kFeedIn = 1.5;  // mm
+  for (int i = 0; i <= kLooks; ++i) {
+    const auto q = test.motion.axes(std::lerp(pass.from, pass.to, i / double{kLooks}));
+    const Pose tool = nominal_pose(machine, q, test.tool_length);
+    if (i == 0) {
+      drawing.tool_axis = tool.rotation.col(2);
+      const Vec3 outward = (tool.translation - test.table_ball).normalized();
+      drawing.path.push_back(tool.translation + kFeedIn * outward);
+    }
+    drawing.path.push_back(tool.translation);
+  }
+  drawing.turning = turning_axis(machine, sheet.parameter, test.motion.axes(pass.from));
+  const kinematics::MachinePart table{-1, machine.work_chain().size()};
+  const Pose table_from_part = Pose::translated(-machine.table_offset());
+  for (const kinematics::MachineBody& body : machine.bodies()) {
+    const bool on_bed = table.joints == 0 && body.part.side == 0;
+    if (!on_bed && !(body.part == table)) continue;
+    drawing.bodies.push_back({body.name, corners_of(body, table_from_part)});
+  }
+  return drawing;
+}
+
 }  // namespace
 
-void add_setup_sheet(MotionAnswer& answer, const SetupSheet& sheet) {
+std::optional<Diagnostics> add_setup_sheet(MotionAnswer& answer, const SetupSheet& sheet) {
   const auto& [machine, test, program, parameter, stroke, readings] = sheet;
   report::MotionTable table{.heading = "Set-up sheet", .columns = {"what", "where or how much"}};
   std::string csv = "what,value\n";
@@ -66,9 +147,31 @@ void add_setup_sheet(MotionAnswer& answer, const SetupSheet& sheet) {
   for (const double reading : readings) largest = std::max(largest, std::abs(reading));
   row("largest reading, of the stroke",
       fmt::format("{:.1f} um of {:g} um", largest * kUmPerMm, stroke * kUmPerMm));
+  const auto clearance = bar_clearance(machine, test, pass);
+  if (!clearance) return clearance.error();
+  if (*clearance && !((*clearance)->distance > 0.0)) {
+    const BarClearance& met = **clearance;
+    return Diagnostics{error(
+        "setup-collides"_id,
+        fmt::format("{} and {} meet at {} = {:.4g} deg", met.first, met.second, parameter,
+                    met.parameter * kDegPerRad),
+        "put the table ball higher or farther from there, take a longer tool, or capture less "
+        "(--angles)")};
+  }
+  std::string nearest = "the machine file has no bodies: not looked for";
+  if (*clearance) {
+    nearest = fmt::format("{:.1f} mm between {} and {}, at {:.4g} deg", (*clearance)->distance,
+                          (*clearance)->first, (*clearance)->second,
+                          (*clearance)->parameter * kDegPerRad);
+  }
+  row("nearest approach", nearest);
   table.note =
-      "The bar is mounted 1.5 mm too long, where the program stops. Travels are those of the pass; "
-      "collisions with the table are not looked for.";
+      "The bar is mounted 1.5 mm too long, where the program stops. Travels are those of the pass.";
+  if (*clearance && !(*clearance)->spindle) {
+    table.note += fmt::format(
+        " Without a tool length of {:g} mm or more the spindle is not looked at.", kLeastStem);
+  }
+  answer.page.setup = drawing_of(sheet, pass);
   answer.document["setup_sheet"] =
       Document{{"g54_in_table_mm", coordinates(origin)},
                {"capture_deg",
@@ -76,9 +179,12 @@ void add_setup_sheet(MotionAnswer& answer, const SetupSheet& sheet) {
                {"pass_deg", std::vector<double>{pass.from * kDegPerRad, pass.to * kDegPerRad}},
                {"travels", travels},
                {"largest_reading_um", largest * kUmPerMm},
-               {"stroke_um", stroke * kUmPerMm}};
+               {"stroke_um", stroke * kUmPerMm},
+               {"nearest_mm", *clearance ? std::optional((*clearance)->distance) : std::nullopt},
+               {"nearest", nearest}};
   answer.page.tables.push_back(std::move(table));
   answer.files["setup.csv"] = std::move(csv);
+  return std::nullopt;
 }
 
 }  // namespace frustum::app

@@ -2,7 +2,7 @@
 // what of travels and stroke that takes.
 //
 // Units  : mm, degrees, um, as named
-// Errors : none
+// Errors : set-up-collides: the bar, or what holds its balls, meets the machine
 #pragma once
 
 #include "app/motion/motion_answer.hpp"
@@ -19,7 +19,8 @@ struct SetupSheet {
   std::vector<double> readings{};
 };
 
-// A table on the page, `setup_sheet` in the document and setup.csv among the files.
-void add_setup_sheet(MotionAnswer& answer, const SetupSheet& sheet);
+// A table and a drawing on the page, `setup_sheet` in the document and setup.csv among the files.
+[[nodiscard]] std::optional<Diagnostics> add_setup_sheet(MotionAnswer& answer,
+                                                         const SetupSheet& sheet);
 
 }  // namespace frustum::app

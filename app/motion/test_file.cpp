@@ -151,6 +151,9 @@ DiagonalWords read_diagonal(const TomlTable& root) {
 TouchWords read_touch(const TomlTable& root) {
   TouchWords words;
   words.repeat = count_or(root, "repeat", 1, 1, kMostCalibrations);
+  words.lobes.constant = root.text_or("pretravel", "");
+  words.lobes.amplitude = root.text_or("lobe", "");
+  words.lobes.phase = root.number_or("lobe_phase", 0.0);
   return words;
 }
 
@@ -233,6 +236,9 @@ TestWriter written(const DiagonalWords& words) {
 TestWriter written(const TouchWords& words) {
   TestWriter out("touch");
   out.number("repeat", words.repeat);
+  out.text("pretravel", words.lobes.constant);
+  out.text("lobe", words.lobes.amplitude);
+  if (words.lobes.phase != 0.0) out.number("lobe_phase", words.lobes.phase);
   return out;
 }
 
@@ -274,8 +280,8 @@ void write_errors(const ErrorWords& errors, const fs::path& folder, TestWriter& 
 
 }  // namespace
 
-Result<TestWords> read_test_file(const fs::path& file) {
-  const auto document = TomlDocument::load(file);
+Result<TestFile> read_test_file(const fs::path& file) {
+  auto document = TomlDocument::load(file);
   if (!document) return document.error();
   const TomlTable& root = document->root();
   const auto kind =
@@ -290,8 +296,31 @@ Result<TestWords> read_test_file(const fs::path& file) {
       [](const TomlTable& t) -> TestWords { return read_touch(t); }};
   TestWords words = readers.at(kind)(root);
   read_common(root, common_words(words));
+  common_words(words).in_file = true;
   if (auto problems = document->finish(); has_error(problems)) return problems;
-  return words;
+  return TestFile{std::move(words), *std::move(document)};
+}
+
+Diagnostics in_test_file(const TestFile& file, Diagnostics problems) {
+  const TomlTable& root = file.document.root();
+  for (const Diagnostic& each : problems) {
+    // Of a program, a machine or a trace, which has its own place.
+    if (!each.file.empty()) continue;
+    Diagnostic found = each;
+    found.key.clear();
+    const auto dot = each.key.find('.');
+    const auto table =
+        dot == std::string::npos ? std::optional(root) : root.table_if(each.key.substr(0, dot));
+    if (table) {
+      table->fail(each.key.substr(dot == std::string::npos ? 0 : dot + 1), found);
+    } else {
+      root.fail(each.key, found);
+    }
+  }
+  std::erase_if(problems, [](const Diagnostic& each) { return each.file.empty(); });
+  const Diagnostics placed = file.document.finish();
+  problems.insert(problems.end(), placed.begin(), placed.end());
+  return problems;
 }
 
 MotionWords& common_words(TestWords& words) {

@@ -4,7 +4,8 @@
 //          the options of `frustum motion` as keys, tables [setup], [instrument] and [errors]
 //          (docs/motion-tests.md)
 // Units  : lengths mm, angles degrees unless a text says otherwise; set-up errors um, feed mm/min
-// Errors : every unknown, missing or mistyped key, with its line
+// Errors : every unknown, missing or mistyped key, with its line; what is found out later of a
+//          key's value is placed by in_test_file()
 #pragma once
 
 #include <filesystem>
@@ -18,13 +19,20 @@
 #include "app/motion/rotary_motion.hpp"
 #include "app/motion/touch_motion.hpp"
 #include "core/result.hpp"
+#include "core/toml_document.hpp"
 
 namespace frustum::app {
 
 using TestWords = std::variant<CircleWords, RotaryWords, ConeMotionWords, ChaseWords, LineWords,
                                DiagonalWords, TouchWords>;
 
-[[nodiscard]] Result<TestWords> read_test_file(const std::filesystem::path& file);
+struct TestFile {
+  TestWords words{};
+  TomlDocument document;  // that they are of
+};
+[[nodiscard]] Result<TestFile> read_test_file(const std::filesystem::path& file);
+// What is wrong with these words, with file, line and key.
+[[nodiscard]] Diagnostics in_test_file(const TestFile& file, Diagnostics problems);
 [[nodiscard]] Result<MotionAnswer> answer_of(const TestWords& words);
 [[nodiscard]] MotionWords& common_words(TestWords& words);
 

@@ -132,17 +132,17 @@ Result<ShownBar> bar_of_words(const MotionWords& words, const MotionSetup& setup
   return bar;
 }
 
-void add_bar(MotionAnswer& answer, const MotionWords& words, const MotionSetup& setup,
-             const instruments::MotionTest& test, const std::string& parameter,
-             const ShownBar& bar) {
+std::optional<Diagnostics> add_bar(MotionAnswer& answer, const MotionWords& words,
+                                   const MotionSetup& setup, const instruments::MotionTest& test,
+                                   const std::string& parameter, const ShownBar& bar) {
   if (words.nc.run) {
     add_program_run(answer, words.nc, bar.largest_difference);
     answer.document["reading_back_um"] = in_um(bar.back);
   }
-  if (!bar.program) return;
+  if (!bar.program) return std::nullopt;
   answer.program = NcText{bar.program->program_file, bar.program->program};
-  add_setup_sheet(answer,
-                  {setup.machine, test, *bar.program, parameter, words.stroke, bar.readings});
+  return add_setup_sheet(
+      answer, {setup.machine, test, *bar.program, parameter, words.stroke, bar.readings});
 }
 
 void add_program_run(MotionAnswer& answer, const ProgramWords& words, double largest_difference) {

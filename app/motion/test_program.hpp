@@ -68,9 +68,10 @@ struct ShownBar {
 };
 [[nodiscard]] Result<ShownBar> bar_of_words(const MotionWords& words, const MotionSetup& setup,
                                             const BarOfRun& run);
-void add_bar(MotionAnswer& answer, const MotionWords& words, const MotionSetup& setup,
-             const instruments::MotionTest& test, const std::string& parameter,
-             const ShownBar& bar);
+[[nodiscard]] std::optional<Diagnostics> add_bar(MotionAnswer& answer, const MotionWords& words,
+                                                 const MotionSetup& setup,
+                                                 const instruments::MotionTest& test,
+                                                 const std::string& parameter, const ShownBar& bar);
 
 // The program that was run, and how far its readings are from analytic ones.
 void add_program_run(MotionAnswer& answer, const ProgramWords& words, double largest_difference);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/motion/residual_report.hpp"
 #include "app/motion/touch_report.hpp"
 #include "instruments/touch_program.hpp"
 #include "instruments/touch_test.hpp"
@@ -18,11 +19,14 @@ using instruments::TouchPlan;
 
 std::optional<Diagnostic> unfit_words(const TouchWords& words, const MotionSetup& setup) {
   if (!words.at.empty()) {
-    return error("axis-moved"_id, "the calibration moves all axes: 'at' holds none");
+    return at_option(error("axis-moved"_id, "the calibration moves all axes: 'at' holds none"),
+                     words.option("at"));
   }
   if (setup.setup.length != 0.0) {
-    return error("setup-without-effect"_id, "--setup length: a probe has no bar",
-                 "a longer stylus is a ball off the tip: ball=0,0,-5");
+    const std::string option = words.in_file ? "setup.length_um" : "--setup length";
+    return at_option(error("setup-without-effect"_id, option + ": a probe has no bar",
+                           "a longer stylus is a ball off the tip: ball=0,0,-5"),
+                     option);
   }
   return std::nullopt;
 }
@@ -79,7 +83,9 @@ Result<MotionAnswer> touch_answer(const TouchWords& words) {
   if (auto problem = unfit_words(words, *setup)) return *std::move(problem);
   const auto plan = instruments::touch_plan(setup->machine);
   if (!plan) return plan.error();
-  const instruments::TouchProbe probe{.tool_length = setup->tool_length};
+  const auto lobes = lobes_of(words.lobes, words.in_file);
+  if (!lobes) return lobes.error();
+  const instruments::TouchProbe probe{.tool_length = setup->tool_length, .lobes = *lobes};
   const auto poses = touch_poses(setup->machine, setup->errors, *plan, probe);
   if (!poses) return poses.error();
   const auto exact = touch_readings(setup->machine, setup->errors, *plan, *poses, probe,
@@ -99,15 +105,11 @@ Result<MotionAnswer> touch_answer(const TouchWords& words) {
   }
   MotionAnswer answer = answer_of("touch", "Touch-trigger calibration of A and C", *setup);
   answer.document["axes"] = axes_of(setup->machine, *poses);
+  add_lobes(answer, *lobes);
   name_facts(answer.page, *setup);
   add_touch_findings(answer, setup->machine, *plan, found);
-  for (const auto& [name, dialect] : {std::pair{"touch.ngc", parser::Dialect::linuxcnc},
-                                      std::pair{"touch.nc", parser::Dialect::fanuc},
-                                      std::pair{"touch.mpf", parser::Dialect::sinumerik},
-                                      std::pair{"touch.h", parser::Dialect::heidenhain}}) {
-    answer.files[name] = touch_program(*plan, probe, dialect);
-  }
-  answer.files["touch.a"] = instruments::touch_mask();
+  add_touch_residuals(answer, *plan, readings, setup->instrument.noise);
+  add_probing_programs(answer, touch_program(*plan, probe));
   return answer;
 }
 

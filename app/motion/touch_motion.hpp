@@ -12,6 +12,7 @@ constexpr int kMostCalibrations = 100000;  // seconds
 
 struct TouchWords : MotionWords {
   int repeat = 1;  // calibrations whose scatter is shown
+  LobeWords lobes{};
 };
 
 [[nodiscard]] Result<MotionAnswer> touch_answer(const TouchWords& words);

@@ -7,6 +7,8 @@
 #include "app/job/number_list.hpp"
 #include "app/motion/circle_report.hpp"
 #include "app/motion/line_motion.hpp"
+#include "app/motion/residual_report.hpp"
+#include "app/motion/setup_found.hpp"
 #include "app/motion/touch_report.hpp"
 #include "core/counted.hpp"
 #include "instruments/ball_maps.hpp"
@@ -30,7 +32,7 @@ Document trace_head(const std::string& test, const TraceWords& words) {
 }
 
 Result<CircleTraceWords> reading_words(const TraceWords& words) {
-  if (auto problem = no_stroke(words.stroke)) return *std::move(problem);
+  if (auto problem = no_stroke(words.stroke, "--stroke")) return *std::move(problem);
   CircleTraceWords reading{.stroke = words.stroke};
   if (!words.plane.empty()) {
     reading.plane = instruments::plane_named(words.plane);
@@ -42,6 +44,17 @@ Result<CircleTraceWords> reading_words(const TraceWords& words) {
                    fmt::format("--length {}: expected a length above 0 mm", *words.length));
     }
     reading.length = words.length;
+  }
+  if (words.angle == "feed") {
+    reading.marks = true;
+    if (words.overshoot && !(*words.overshoot >= 0.0 && *words.overshoot <= 360.0)) {
+      return error("out-of-range"_id,
+                   fmt::format("--overshoot {}: expected degrees, 0 to 360", *words.overshoot));
+    }
+    if (words.overshoot) reading.overshoot = *words.overshoot * kRadPerDeg;
+  } else if (words.overshoot) {
+    return error("conflicting-options"_id, "--overshoot is of times between marks",
+                 "add --angle feed, or leave it out");
   }
   if (words.capture.empty()) return reading;
   const auto arc = numbers_of(words.capture, 2, "--capture");
@@ -60,6 +73,11 @@ void add_told_terms(MotionAnswer& answer, const CircleTraces& all) {
   std::vector<std::string> told, not_told;
   if (const auto found = instruments::signature(all.traces, all.length)) {
     const auto which = told_terms(all.traces, *found, all.length);
+    const auto value = [&](SignatureTerm term) {
+      return found->value[static_cast<std::size_t>(term)];
+    };
+    add_setup_found(answer, value(SignatureTerm::cx), value(SignatureTerm::cy),
+                    value(SignatureTerm::r0));
     for (std::size_t k = 0; k < kSignatureTerms; ++k) {
       (which[k] ? told : not_told).emplace_back(text_of(static_cast<SignatureTerm>(k)).name);
     }
@@ -162,6 +180,7 @@ Result<MotionAnswer> touch_trace(const TraceWords& words) {
                      {.readings = *readings,
                       .identified = identified_maps(plan, *readings),
                       .sd = standard_deviations(plan, noise)});
+  add_touch_residuals(answer, plan, *readings, noise);
   answer.files.erase("touches.csv");  // is what was given
   return answer;
 }
@@ -204,6 +223,7 @@ Result<MotionAnswer> ball_trace(const TraceWords& words) {
   answer.document["noise_um"] = setup.instrument.noise * kUmPerMm;
   add_touch_findings(answer, setup.machine, plan,
                      {.identified = *std::move(identified), .sd = *std::move(sd)});
+  add_ball_residuals(answer, plan, balls, readings, words.files, setup.instrument.noise);
   return answer;
 }
 

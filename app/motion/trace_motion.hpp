@@ -12,7 +12,9 @@ struct TraceWords : AnswerOptions {
   std::vector<std::string> files{};
   std::string plane{};
   std::optional<double> length{};
-  std::string capture{};  // "-20,200"
+  std::string capture{};              // "-20,200"
+  std::string angle = "command";      // or feed: by time between feed-in and feed-out
+  std::optional<double> overshoot{};  // degrees before and after the capture
   double stroke = 1.0;
   std::string axis{};     // of a line
   std::string machine{};  // of touches

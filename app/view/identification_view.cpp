@@ -157,6 +157,35 @@ std::string agreement_text(const StudyResult& result) {
   return out + ".\n";
 }
 
+// Of the tests' set-ups: where their balls, bars and artefacts seem to be.
+std::string mountings_text(const StudyResult& result) {
+  if (result.mountings.empty()) return "";
+  TextTable table({"set-up found of", "", "value", "unit"});
+  for (const auto& mounting : result.mountings) {
+    for (std::size_t k = 0; k < mounting.unknowns.size(); ++k) {
+      const auto& unknown = mounting.unknowns[k];
+      table.row({k == 0 ? mounting.test : "", unknown.name,
+                 number(mounting.values[static_cast<Eigen::Index>(k)], unknown.angular),
+                 unit_of(unknown.angular)});
+    }
+  }
+  return '\n' + table.text();
+}
+
+Json mountings_json(const StudyResult& result) {
+  Json list = Json::array();
+  for (const auto& mounting : result.mountings) {
+    Json json{{"test", mounting.test}};
+    for (std::size_t k = 0; k < mounting.unknowns.size(); ++k) {
+      const auto& unknown = mounting.unknowns[k];
+      json[unknown.name + (unknown.angular ? " urad" : " um")] =
+          shown(mounting.values[static_cast<Eigen::Index>(k)], unknown.angular);
+    }
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
 std::string recipe_text(const Recipe& recipe) {
   TextTable table({"recipe as printed", "equation", "quantity", "value", "unit", "", "from"});
   for (const auto& step : recipe.steps) {
@@ -328,6 +357,7 @@ std::string identification_text(const Study& study, const StudyResult& result) {
   if (result.remedy) out += remedy_text(*result.remedy);
   out += agreement_text(result);
   out += residual_table(study, result);
+  out += mountings_text(result);
   if (result.recipe) out += recipe_text(*result.recipe);
   return out;
 }
@@ -339,6 +369,7 @@ std::string identification_json(const Study& study, const StudyResult& result) {
   json["title"] = study.title;
   json["machine"] = study.machine().name();
   json["complete"] = result.identification.observability.complete();
+  json["answered"] = is_answered(result);
   json["estimates"] = estimates_json(study, result);
   json["covariance"] = covariance_json(result);
   json["combinations"] = combinations_json(result);
@@ -351,6 +382,7 @@ std::string identification_json(const Study& study, const StudyResult& result) {
       agreement.probability ? Json(*agreement.probability) : Json(nullptr);
   json["agreement"]["birge"] = agreement.birge ? Json(*agreement.birge) : Json(nullptr);
   json["left_out"] = result.left_out;
+  json["setup_found"] = mountings_json(result);
   json["residuals"] = residuals_json(result);
   const auto& suspect = result.identification.suspect;
   json["suspect"] = suspect ? Json(result.identification.residuals[*suspect].name) : Json(nullptr);

@@ -49,6 +49,10 @@ void settle_noise(MeasuredMotion& motion, const TestHead& head, const Eigen::Mat
   motion.noise = effective_noise(motion.measured - fitted, static_cast<int>(columns.cols()));
 }
 
+std::vector<Unknown> table_ball_unknowns() {
+  return {{.name = "table ball X"}, {.name = "table ball Y"}, {.name = "table ball Z"}};
+}
+
 constexpr Eigen::Index kHarmonics = 5;
 
 Eigen::RowVectorXd harmonics_at(double t) {
@@ -73,6 +77,8 @@ Result<MeasuredMotion> measured_bar(const Machine& machine, const TestHead& head
   }
   motion.measured = vector_of(measured);
   motion.of_mounting.resize(motion.measured.size(), 4);
+  motion.mounting = table_ball_unknowns();
+  motion.mounting.push_back({.name = "length"});
   for (Eigen::Index i = 0; i < motion.measured.size(); ++i) {
     motion.of_mounting.row(i) << -motion.along[static_cast<std::size_t>(i)].transpose(), -1.0;
   }
@@ -148,6 +154,7 @@ Result<MeasuredMotion> measured_chase(const Machine& machine, const TestHead& he
   const auto count = static_cast<Eigen::Index>(3 * readings.size());
   motion.measured.resize(count);
   motion.of_mounting.resize(count, 3);
+  motion.mounting = table_ball_unknowns();
   for (std::size_t i = 0; i < readings.size(); ++i) {
     for (Eigen::Index k = 0; k < 3; ++k) {
       motion.at.push_back(test.poses[i].at);
@@ -201,6 +208,9 @@ Result<MeasuredMotion> measured_diagonals(const Machine& machine, const TestHead
   // Slopes over the whole length, then zeros.
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(count, 2 * diagonals);
   motion.of_mounting = Eigen::MatrixXd::Zero(count, diagonals + 1);
+  for (const std::string& name : names) motion.mounting.push_back({.name = "zero of " + name});
+  // A ratio, which is shown as um per m.
+  motion.mounting.push_back({.name = "scale", .angular = true});
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto k = static_cast<Eigen::Index>(line_of[static_cast<std::size_t>(i)]);
     const double length = lengths[static_cast<std::size_t>(i)];
@@ -240,6 +250,12 @@ Result<MeasuredMotion> measured_touches(const Machine& machine, const TestHead& 
   const auto count = static_cast<Eigen::Index>(readings.size());
   motion.measured = vector_of(readings);
   motion.of_mounting.resize(count, 6);
+  for (const char* name : {"X", "Y", "Z"}) {
+    motion.mounting.push_back({.name = fmt::format("artefact {}", name)});
+  }
+  for (const char* name : {"A", "B", "C"}) {
+    motion.mounting.push_back({.name = fmt::format("artefact {}", name), .angular = true});
+  }
   const auto turns = static_cast<Eigen::Index>(plan.turns.size());
   const Eigen::Index places = static_cast<Eigen::Index>(plan.tilts.size()) * turns;
   // Where the table is meant to be, its six errors shift the surfaces along their normals.

@@ -65,19 +65,41 @@ Kept without_mounting(const MeasuredMotion& motion) {
 // One test, ready to be asked.
 struct Condensed {
   MeasuredMotion motion{};
-  Eigen::Index ball = -1;      // column of its ds among the unknowns
-  Eigen::VectorXd mounting{};  // about which the readings are taken
-  Eigen::MatrixXd rows{};      // without the mounting: rows x readings
+  Eigen::Index ball = -1;       // column of its ds among the unknowns
+  Eigen::MatrixXd estimator{};  // of the mounting, by readings; none: no columns
+  Eigen::VectorXd mounting{};   // of a perfect machine: where the search for others begins
+  Eigen::MatrixXd rows{};       // without the mounting: rows x readings
   std::vector<Row> names{};
 };
 
-Eigen::VectorXd mounting_of(const MeasuredMotion& motion) {
-  Eigen::VectorXd s = Eigen::VectorXd::Zero(motion.of_mounting.cols());
-  if (s.size() == 0) return s;
-  constexpr int kRounds = 3;  // a millimetre, then its square over the bar, then nothing
-  for (int i = 0; i < kRounds; ++i) {
-    const Eigen::VectorXd left = motion.measured - motion.readings(motion.base, Vec3::Zero(), s);
-    s += shortest_solution(motion.of_mounting, left, 1e-10);
+constexpr double kSeen = 1e-12;  // of the largest: a millionth of its effect
+
+// Directions of the mounting that change no reading to first order, as columns.
+Eigen::MatrixXd unseen_directions(const Eigen::MatrixXd& of_mounting) {
+  const SymmetricEigen normal = symmetric_eigen(of_mounting.transpose() * of_mounting);
+  const double least = kSeen * normal.values.cwiseAbs().maxCoeff();
+  Eigen::Index unseen = 0;
+  while (unseen < normal.values.size() && !(normal.values[unseen] > least)) ++unseen;
+  return normal.vectors.leftCols(unseen);
+}
+
+// What readings say of the mounting, to first order: the shortest answer of least squares.
+Eigen::MatrixXd mounting_estimator(const Eigen::MatrixXd& of_mounting) {
+  const Eigen::MatrixXd transposed = of_mounting.transpose();
+  const SymmetricEigen normal = symmetric_eigen(transposed * of_mounting);
+  const double least = kSeen * normal.values.cwiseAbs().maxCoeff();
+  Eigen::VectorXd inverse = Eigen::VectorXd::Zero(normal.values.size());
+  for (Eigen::Index k = 0; k < inverse.size(); ++k) {
+    if (normal.values[k] > least) inverse[k] = 1.0 / normal.values[k];
+  }
+  return normal.vectors * inverse.asDiagonal() * normal.vectors.transpose() * transposed;
+}
+
+Eigen::VectorXd refined_mounting(const MeasuredMotion& motion, const Eigen::MatrixXd& estimator,
+                                 const GeometricErrors& errors, const Vec3& ds, int rounds,
+                                 Eigen::VectorXd s) {
+  for (int i = 0; i < rounds; ++i) {
+    s += estimator * (motion.measured - motion.readings(errors, ds, s));
   }
   return s;
 }
@@ -93,7 +115,8 @@ Result<Condensed> condensed(const MeasuredMotion& motion) {
                     motion.name),
         "state noise = \"0.3um\", the standard deviation of a reading");
   }
-  Condensed test{.motion = motion, .mounting = mounting_of(motion)};
+  Condensed test{.motion = motion, .mounting = mounting_with(motion, motion.base, Vec3::Zero())};
+  if (test.mounting.size() > 0) test.estimator = mounting_estimator(motion.of_mounting);
   const Kept kept = without_mounting(motion);
   if (kept.named.empty()) {
     return error("nothing-measured"_id,
@@ -128,19 +151,52 @@ Eigen::MatrixXd gain_of(const Machine& machine, const Condensed& test,
   return test.rows * gain;
 }
 
-Eigen::VectorXd values_of(const Condensed& test, const std::vector<Cause>& causes,
-                          const Eigen::VectorXd& x) {
-  GeometricErrors errors = test.motion.base;
+GeometricErrors errors_with(const GeometricErrors& base, const std::vector<Cause>& causes,
+                            const Eigen::VectorXd& x) {
+  GeometricErrors errors = base;
   for (std::size_t k = 0; k < causes.size(); ++k) {
     if (causes[k].parameter.unit) {
       errors = errors.plus(*causes[k].parameter.unit, x[count_of(k)]);
     }
   }
-  const Vec3 ds = test.ball < 0 ? Vec3::Zero() : Vec3(x.segment<3>(test.ball));
-  return test.rows * test.motion.readings(errors, ds, test.mounting);
+  return errors;
+}
+
+// Column of the ball of a test among the unknowns; -1: it has none.
+Eigen::Index ball_column(const MeasuredMotion& motion, const std::vector<Unknown>& unknowns,
+                         std::size_t after) {
+  if (motion.ball.empty()) return -1;
+  for (std::size_t k = after; k < unknowns.size(); ++k) {
+    if (unknowns[k].name == motion.ball + " X") return count_of(k);
+  }
+  return -1;
+}
+
+Vec3 ball_at_column(Eigen::Index column, const Eigen::VectorXd& x) {
+  return column < 0 ? Vec3(Vec3::Zero()) : Vec3(x.segment<3>(column));
+}
+
+Eigen::VectorXd values_of(const Condensed& test, const std::vector<Cause>& causes,
+                          const Eigen::VectorXd& x) {
+  const GeometricErrors errors = errors_with(test.motion.base, causes, x);
+  const Vec3 ds = ball_at_column(test.ball, x);
+  if (test.mounting.size() == 0) return test.rows * test.motion.readings(errors, ds, test.mounting);
+  // Errors of micrometres move the mounting by as much: one round leaves what is of third order.
+  constexpr int kRounds = 2;
+  const Eigen::VectorXd s =
+      refined_mounting(test.motion, test.estimator, errors, ds, kRounds, test.mounting);
+  return test.rows * test.motion.readings(errors, ds, s);
 }
 
 }  // namespace
+
+Eigen::VectorXd mounting_with(const MeasuredMotion& motion, const GeometricErrors& errors,
+                              const Vec3& ds, int rounds) {
+  Eigen::VectorXd s = Eigen::VectorXd::Zero(motion.of_mounting.cols());
+  if (s.size() == 0) return s;
+  return refined_mounting(motion, mounting_estimator(motion.of_mounting), errors, ds, rounds,
+                          std::move(s));
+}
 
 std::vector<Unknown> ball_unknowns(const std::vector<MeasuredMotion>& motions) {
   std::vector<Unknown> unknowns;
@@ -155,6 +211,47 @@ std::vector<Unknown> ball_unknowns(const std::vector<MeasuredMotion>& motions) {
   return unknowns;
 }
 
+Result<Eigen::MatrixXd> unseen_mounting_covariance(const std::vector<MeasuredMotion>& motions,
+                                                   const std::vector<Unknown>& unknowns,
+                                                   const std::vector<Cause>& causes,
+                                                   const Eigen::VectorXd& values, double size) {
+  Eigen::MatrixXd covariance;
+  for (const MeasuredMotion& motion : motions) {
+    const auto test = condensed(motion);
+    if (!test) return test.error();
+    const Eigen::Index before = covariance.rows(), own = test->rows.rows();
+    covariance.conservativeResize(before + own, before + own);
+    covariance.rightCols(own).setZero();
+    covariance.bottomRows(own).setZero();
+    if (test->mounting.size() == 0) continue;
+    const GeometricErrors errors = errors_with(motion.base, causes, values);
+    const Vec3 ds = ball_at_column(ball_column(motion, unknowns, causes.size()), values);
+    const Eigen::VectorXd s = mounting_with(motion, errors, ds);
+    const Eigen::MatrixXd unseen = unseen_directions(motion.of_mounting);
+    for (Eigen::Index k = 0; k < unseen.cols(); ++k) {
+      const Eigen::VectorXd step = size * unseen.col(k);
+      const Eigen::VectorXd shown =
+          0.5 * test->rows *
+          (motion.readings(errors, ds, s + step) - motion.readings(errors, ds, s - step));
+      covariance.bottomRightCorner(own, own) += shown * shown.transpose();
+    }
+  }
+  return covariance;
+}
+
+std::vector<FoundMounting> found_mountings(const std::vector<MeasuredMotion>& motions,
+                                           const std::vector<Unknown>& unknowns,
+                                           const std::vector<Cause>& causes,
+                                           const Eigen::VectorXd& values) {
+  std::vector<FoundMounting> found;
+  for (const MeasuredMotion& motion : motions) {
+    const Vec3 ds = ball_at_column(ball_column(motion, unknowns, causes.size()), values);
+    found.push_back({motion.name, motion.mounting,
+                     mounting_with(motion, errors_with(motion.base, causes, values), ds)});
+  }
+  return found;
+}
+
 Result<MotionObservations> observations_of(const Machine& machine,
                                            const std::vector<MeasuredMotion>& motions,
                                            std::vector<Unknown> unknowns,
@@ -165,9 +262,7 @@ Result<MotionObservations> observations_of(const Machine& machine,
   for (const MeasuredMotion& motion : motions) {
     auto test = condensed(motion);
     if (!test) return test.error();
-    for (std::size_t k = causes.size(); k < unknowns.size() && test->ball < 0; ++k) {
-      if (!motion.ball.empty() && unknowns[k].name == motion.ball + " X") test->ball = count_of(k);
-    }
+    test->ball = ball_column(motion, unknowns, causes.size());
     rows += test->rows.rows();
     tests->push_back(*std::move(test));
   }

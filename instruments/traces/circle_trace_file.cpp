@@ -14,6 +14,8 @@ namespace {
 
 // A step this much wider than the usual one is a gap.
 constexpr double kGap = 5.0;
+// Overshoot of our programs.
+constexpr double kHalfTurn = 180.0 * kRadPerDeg, kSlight = 2.0 * kRadPerDeg;
 
 const std::vector<std::string>& columns() {
   static const std::vector<std::string> kColumns{"run",        "angle_deg", "time_s",   "radial_um",
@@ -45,6 +47,7 @@ class TraceReader {
   // Adds what the file states to what is known so far, and its runs.
   std::optional<Diagnostics> read(CircleTraces& all) {
     if (auto problem = read_notes(all)) return problem;
+    plane_ = all.plane;
     if (auto problem = choose_columns(all)) return Diagnostics{*std::move(problem)};
     Runs runs;
     if (auto problem = read_rows(all.length, runs)) return problem;
@@ -174,7 +177,8 @@ class TraceReader {
       const double deviation = reading_.ends_with("_um") ? *reading / kUmPerMm
                                : reading_ == "length_mm" ? *reading - length
                                                          : *reading;
-      if (std::abs(deviation) > words_.stroke) {
+      // Outside are the feed-in and the feed-out.
+      if (!words_.marks && std::abs(deviation) > words_.stroke) {
         return Diagnostics{table_.placed(
             error("stroke-exceeded"_id,
                   fmt::format("{} = {:g} is {:g} mm from the nominal length, beyond the stroke of "
@@ -201,12 +205,91 @@ class TraceReader {
       return false;
     }
     if (samples.size() < 3) return true;  // which check() tells
+    if (words_.marks) return spread_between_marks(sense, samples);
     for (Sample& each : samples) {
       const double share = (each.place - first) / (last - first);
       each.place =
           sense == Sense::ccw ? arc.lo + share * arc.width() : arc.hi - share * arc.width();
     }
     return true;
+  }
+
+  // When the bar has come in: where the ramp of samples outside, `first` to `last`, would be at the
+  // nominal length. Nothing where they are no ramp.
+  static std::optional<double> time_of_mark(const std::vector<Sample>& samples, std::size_t first,
+                                            std::size_t last) {
+    double n = 0.0, t = 0.0, d = 0.0, tt = 0.0, td = 0.0;
+    for (std::size_t i = first; i < last; ++i) {
+      const double time = samples[i].place - samples[first].place;
+      n += 1.0;
+      t += time;
+      d += samples[i].deviation;
+      tt += time * time;
+      td += time * samples[i].deviation;
+    }
+    const double slope = (n * td - t * d) / (n * tt - t * t);
+    if (!(n >= 3.0) || !(std::abs(slope) > 0.0) || !std::isfinite(slope)) return std::nullopt;
+    return samples[first].place + (t - d / slope) / n;
+  }
+
+  // Of a recording from before the feed-in to after the feed-out: times to angles, evenly over
+  // capture and overshoot; what is not of the capture is left out.
+  bool spread_between_marks(Sense sense, std::vector<Sample>& samples) {
+    // A run reads micrometres; the bar comes in from 1.5 mm.
+    const double outside = 0.2 * words_.stroke;
+    const auto in_run = [&](const Sample& each) { return std::abs(each.deviation) <= outside; };
+    const auto begin = std::ranges::find_if(samples, in_run);
+    const auto end = std::find_if(samples.rbegin(), samples.rend(), in_run).base();
+    const auto into = static_cast<std::size_t>(begin - samples.begin()),
+               out = static_cast<std::size_t>(end - samples.begin());
+    const auto from = time_of_mark(samples, ramp_before(samples, into), into);
+    const auto to = time_of_mark(samples, out, ramp_after(samples, out));
+    if (!from || !to || !(*to > *from)) {
+      problems_.push_back(table_.placed(
+          error("marks-missing"_id,
+                fmt::format("the {} run has no {}: three samples or more beyond {:g} mm",
+                            name_of(sense), from ? "feed-out" : "feed-in", outside),
+                "record from before the bar comes in to after it has gone out; without both the "
+                "times are spread over the capture: leave --angle feed out"),
+          samples.front().line));
+      return false;
+    }
+    const auto& arc = words_.capture;
+    const double over = words_.overshoot.value_or(plane_ == Plane::XY ? kHalfTurn : kSlight);
+    const double whole = arc.width() + 2.0 * over;
+    std::vector<Sample> kept;
+    for (Sample each : samples) {
+      const double turned = whole * (each.place - *from) / (*to - *from) - over;
+      if (turned < 0.0 || turned > arc.width()) continue;
+      each.place = sense == Sense::ccw ? arc.lo + turned : arc.hi - turned;
+      if (std::abs(each.deviation) > words_.stroke) {
+        problems_.push_back(table_.placed(
+            error("stroke-exceeded"_id,
+                  fmt::format("{:g} mm from the nominal length, beyond the stroke of {:g} mm",
+                              each.deviation, words_.stroke),
+                  "check the unit of the column and the length of the bar"),
+            each.line));
+        return false;
+      }
+      kept.push_back(each);
+    }
+    samples = std::move(kept);
+    return !samples.empty();
+  }
+  // The bar stands before it comes in and after it has gone out: the ramp is what moves.
+  static std::size_t ramp_before(const std::vector<Sample>& samples, std::size_t into) {
+    std::size_t first = into;
+    while (first > 0 && moves(samples[first - 1], samples[first])) --first;
+    return first;
+  }
+  static std::size_t ramp_after(const std::vector<Sample>& samples, std::size_t out) {
+    std::size_t last = out;
+    while (last < samples.size() && moves(samples[last - 1], samples[last])) ++last;
+    return last;
+  }
+  static bool moves(const Sample& a, const Sample& b) {
+    constexpr double kStands = 0.05;  // mm/s
+    return std::abs(b.deviation - a.deviation) > kStands * (b.place - a.place);
   }
 
   void check(Sense sense, const std::vector<Sample>& samples) {
@@ -253,6 +336,7 @@ class TraceReader {
   const CircleTraceWords& words_;
   std::string place_{}, reading_{};
   bool by_time_ = false;
+  Plane plane_ = Plane::XY;
   std::optional<Sense> run_{};
   Diagnostics problems_{};
 };

@@ -4,11 +4,12 @@
 //          radial_mm or length_mm (trace_table.hpp); comments "# run ccw", "# plane XY", "# radius
 //          150", "# feed 1000", "# temperature 20". A file holds one run or both; two files hold
 //          one each. Angles of a cw run fall. A bar knows no angle: times are spread evenly over
-//          the capture arc
+//          the capture arc; or, where the recording has its feed-in and feed-out (`marks`), over
+//          the way between them, which is the capture with its overshoot
 // Units  : as the columns say; out: mm, rad
 // Errors : a run that is not said or there twice, angles that go back, gaps, deviations beyond the
 //          bar's stroke (a wrong unit), a length without nominal, statements that contradict each
-//          other: with file and line
+//          other, a recording without its marks: with file and line
 #pragma once
 
 #include <filesystem>
@@ -27,6 +28,10 @@ struct CircleTraceWords {
   std::optional<double> length{};  // nominal, mm
   kinematics::AxisRange capture{0.0, 360.0 * kRadPerDeg};
   double stroke = 1.0;  // of the bar, to either side, mm
+  // The run begins and ends where the bar has come in to its length and goes out again, with an
+  // overshoot (rad) before and after the capture: half a turn in XY, else 2 deg.
+  bool marks = false;
+  std::optional<double> overshoot{};
   // A run that is not said is ccw where its angles rise, else cw.
   bool sense_may_be_missing = false;
 };

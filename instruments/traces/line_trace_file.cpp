@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/counted.hpp"
+#include "core/decimal.hpp"
 #include "core/units.hpp"
 #include "instruments/traces/trace_table.hpp"
 
@@ -100,6 +101,21 @@ Result<LineTrace> read_line_trace(const std::filesystem::path& file) {
   LineTrace trace{.up = rows_of(up), .down = rows_of(down)};
   for (const auto& [target, runs] : up) trace.targets.push_back(target);
   return trace;
+}
+
+std::string line_csv(std::span<const double> targets, const Deviations& up,
+                     const Deviations& down) {
+  std::string csv = "run,direction,target_mm,deviation_um\n";
+  const std::size_t runs = up.empty() ? 0 : up.front().size();
+  for (std::size_t run = 0; run < runs; ++run) {
+    const auto row = [&](const char* direction, std::size_t i, const Deviations& deviations) {
+      csv += fmt::format("{},{},{},{}\n", run + 1, direction, shortest_decimal(targets[i]),
+                         shortest_decimal(deviations[i][run] * kUmPerMm));
+    };
+    for (std::size_t i = 0; i < targets.size(); ++i) row("up", i, up);
+    for (std::size_t i = targets.size(); i-- > 0;) row("down", i, down);
+  }
+  return csv;
 }
 
 }  // namespace frustum::instruments

@@ -8,6 +8,8 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "core/result.hpp"
@@ -21,5 +23,9 @@ struct LineTrace {
 };
 
 [[nodiscard]] Result<LineTrace> read_line_trace(const std::filesystem::path& file);
+
+// Such a file; lists by target, values by run, mm.
+[[nodiscard]] std::string line_csv(std::span<const double> targets, const Deviations& up,
+                                   const Deviations& down);
 
 }  // namespace frustum::instruments

@@ -31,12 +31,6 @@ TouchPoint turned_point(const TouchPlan& plan, const PlannedTouch& touch) {
   return {rotation * point.place, rotation * point.normal};
 }
 
-std::string name_of(const TouchPlan& plan, const PlannedTouch& touch) {
-  return fmt::format("point {} at A = {:g} deg, C = {:g} deg", touch.point,
-                     plan.tilts[touch.tilt].axis * kDegPerRad,
-                     plan.turns[touch.turn].axis * kDegPerRad);
-}
-
 // Numbers of one row, by the columns.
 struct Row {
   double tilt = 0.0, turn = 0.0;  // rad
@@ -105,7 +99,7 @@ Result<std::vector<double>> read_touches(const std::filesystem::path& file, cons
     const PlannedTouch& touch = plan.touches[*at];
     if (readings[*at]) {
       return table->placed(
-          error("given-twice"_id, fmt::format("{} is touched twice", name_of(plan, touch))),
+          error("given-twice"_id, fmt::format("{} is touched twice", place_of(plan, touch))),
           table->line(r));
     }
     const TouchPoint nominal = turned_point(plan, touch);
@@ -114,7 +108,7 @@ Result<std::vector<double>> read_touches(const std::filesystem::path& file, cons
       return table->placed(
           error("touch-far"_id,
                 fmt::format("{} is {:.4g} mm from its nominal place ({:.3f}, {:.3f}, {:.3f})",
-                            name_of(plan, touch), off.norm(), nominal.place.x(), nominal.place.y(),
+                            place_of(plan, touch), off.norm(), nominal.place.x(), nominal.place.y(),
                             nominal.place.z()),
                 "mm in machine coordinates, counted from the crossing of the axes A and C"),
           table->line(r));
@@ -127,7 +121,7 @@ Result<std::vector<double>> read_touches(const std::filesystem::path& file, cons
       return table->placed(
           error("touch-missing"_id,
                 fmt::format("{} of {} touches are there: {} is missing", table->rows(),
-                            plan.touches.size(), name_of(plan, plan.touches[t]))),
+                            plan.touches.size(), place_of(plan, plan.touches[t]))),
           table->header_line());
     }
     all.push_back(*readings[t]);

@@ -32,6 +32,11 @@ std::string trace_section(const MotionPage& page) {
   return content.empty() ? "" : section("traces", "Traces", content);
 }
 
+std::string setup_section(const MotionPage& page) {
+  if (!page.setup) return {};
+  return section("setup", html_text(page.setup->title), bar_figure_of(*page.setup));
+}
+
 std::string table_sections(const MotionPage& page) {
   std::string html;
   for (std::size_t k = 0; k < page.tables.size(); ++k) {
@@ -82,8 +87,8 @@ std::string motion_html(const MotionPage& page) {
     }
     body += "</ul>\n";
   }
-  body +=
-      trace_section(page) + table_sections(page) + contribution_section(page) + told_section(page);
+  body += setup_section(page) + trace_section(page) + table_sections(page) +
+          contribution_section(page) + told_section(page);
   body +=
       "</main>\n<footer><p>Made by Frustum. The licences of the bundled packages are in the source "
       "of this page.</p></footer>\n";

@@ -5,9 +5,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "report/chart/bar_drawing.hpp"
 #include "report/chart/polar_chart.hpp"
 #include "report/chart/trace_chart.hpp"
 #include "report/chart/vector_chart.hpp"
@@ -29,6 +31,7 @@ struct MotionPage {
   std::vector<ArrowSeries> arrows{};
   std::vector<TraceChart> charts{};
   std::vector<MotionTable> tables{};
+  std::optional<BarDrawing> setup{};
   std::vector<BarRow> contributions{};
   std::vector<std::string> told{}, not_told{};
 };

@@ -66,7 +66,7 @@ TEST_F(MotionProgramSystem, HeadsAndTablesInBothForms) {
         "0,40,100 "
         "--tool-length 150",
         "rotary --machine double-pivot-head --axis C --direction radial --ball 0,0,100 "
-        "--tool-length 150 --at B=60",
+        "--tool-length 250 --at B=60",
         "rotary --machine zx-yac --axis A --direction tangential --ball 100,0,100"}) {
     for (const char* form : {"tcp", "axes"}) {
       const json run = through(std::string(test) + " --error EB0C=15urad --error EC0Y=20urad",
@@ -123,6 +123,32 @@ TEST_F(MotionProgramSystem, TheSetUpSheetOfABar) {
   // As far as the travel goes, with overshoot where there is any left.
   EXPECT_LE(tilt["setup_sheet"]["pass_deg"][0].get<double>(),
             tilt["setup_sheet"]["capture_deg"][0].get<double>());
+}
+
+// The top of the table is 70 mm below the crossing of the axes, the bar is 8 mm thick.
+TEST_F(MotionProgramSystem, ABarThatMeetsTheMachineIsRefused) {
+  const json level = document(
+      "circle --machine zx-yac --plane XY --length 100 --center 0,0,0 --dialect fanuc --out out");
+  EXPECT_NEAR(level["setup_sheet"]["nearest_mm"].get<double>(), 66.0, 0.01);
+  EXPECT_NE(level["setup_sheet"]["nearest"].get<std::string>().find("bar and table"),
+            std::string::npos);
+  const std::string page = read(folder_ / "out/motion.html");
+  for (const char* drawn : {"Set-up on the table", "from the front", "phi grows", "table ball"}) {
+    EXPECT_NE(page.find(drawn), std::string::npos) << drawn;
+  }
+  const std::string upright = "circle --machine zx-yac --plane YZ --length 150 --center 0,0,50";
+  EXPECT_EQ(fault(upright + " --dialect fanuc --out out"), "setup-collides");
+  // From -20 to 200 deg it stays 1.3 mm below the ball's height at most.
+  std::string arc;
+  for (int i = 0; i <= 220; ++i) arc += fmt::format("{}{}", i > 0 ? "," : "", i - 20 + 0.5);
+  EXPECT_EQ(run("motion " + upright + " --dialect fanuc --out out --angles=" + arc).exit_code, 0);
+  // The spindle, which a tool of 150 mm brings down to the cup of the ball.
+  const std::string head =
+      "rotary --machine double-pivot-head --axis C --direction radial --ball 0,0,100 --at B=60 "
+      "--dialect fanuc --out out --tool-length ";
+  EXPECT_EQ(fault(head + "150"), "setup-collides");
+  EXPECT_EQ(run("motion " + head + "250").exit_code, 0);
+  EXPECT_NE(read(folder_ / "out/motion.html").find("C grows"), std::string::npos);
 }
 
 TEST_F(MotionProgramSystem, AProgramThatIsNotOfTheTestIsRefused) {

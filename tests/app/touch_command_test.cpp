@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
 #include "core/pose.hpp"
+#include "core/units.hpp"
 #include "tests/app/motion_commands.hpp"
 
 namespace frustum {
@@ -221,6 +223,31 @@ TEST_F(TouchSystem, TheProbingProgramsOfFourControls) {
   for (const char* file : {"touch.ngc", "touch.nc"}) {
     EXPECT_EQ(run(std::string("parse out/") + file + " --canon").exit_code, 0) << file;
   }
+}
+
+// Normals of columns at 0 and 180 deg are on lobes of opposite sign, those at 90 deg on none; a
+// turn by 60 deg exchanges the signs: the columns seem to be shifted by twice the amplitude along X
+// of the table, at every other position of C. What is the same in every direction cancels.
+TEST_F(TouchSystem, LobesOfTheProbeShiftTheTable) {
+  const json doc = document("touch --machine ac-probe --pretravel 7um --lobe 1um --out out");
+  ASSERT_FALSE(doc.is_null());
+  EXPECT_EQ(doc["pretravel_um"]["lobe"], 1.0);
+  const json& upright = doc["identified"]["poses"][0];
+  for (std::size_t j = 0; j < 6; ++j) {
+    const double angle = 60.0 * static_cast<double>(j) * kRadPerDeg;
+    const double shift = j % 2 == 1 ? 2.0 : 0.0;
+    expect_all(upright[j], {shift * std::cos(angle), shift * std::sin(angle), 0.0, 0.0, 0.0, 0.0},
+               1e-6);
+  }
+  // What is opposite for opposite faces is a shift at any pose: nothing is left over to see it by.
+  EXPECT_GT(std::abs(doc["identified"]["poses"][2][1][1].get<double>()), 0.1);
+  EXPECT_LT(doc["residuals"]["rms_um"].get<double>(), 1e-6);
+  const json none = document("touch --machine ac-probe --pretravel 7um");
+  EXPECT_LT(none["residuals"]["rms_um"].get<double>(), 1e-6);
+  const Outcome again = run("motion run out/test.toml --json");
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(json::parse(again.out)["identified"], doc["identified"]);
+  EXPECT_EQ(fault("touch --machine ac-probe --lobe 3"), "wrong-quantity");
 }
 
 // Three R-tests identify the maps that touches do, and write them as errors.

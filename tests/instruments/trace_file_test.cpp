@@ -254,5 +254,53 @@ TEST_F(TraceFiles, BlindTracesAreWithinTheirIntervals) {
   }
 }
 
+// A recording by time: 1.5 mm outside, in, half a turn, a turn that counts, half a turn, out.
+std::string recording(const std::string& run, double squareness_um) {
+  constexpr double kRate = 50.0, kFeed = 1000.0 / 60.0, kBar = 150.0;  // 1/s, mm/s, mm
+  const double in = 1.5 / kFeed, turn = 4.0 * 180.0 * kRadPerDeg * kBar / kFeed;
+  const double w = run == "ccw" ? 1.0 : -1.0;
+  std::string text;
+  for (int i = 0;; ++i) {
+    const double t = i / kRate - 1.0 - in;  // 0: where the bar has come in
+    if (t > turn + in + 1.0) return text;
+    double r = 1.5;
+    if (t > -in && t < 0.0) r = -t * kFeed;
+    if (t >= 0.0 && t <= turn) {
+      const double phi = -180.0 * kRadPerDeg + 4.0 * 180.0 * kRadPerDeg * t / turn;
+      r = -squareness_um * 1e-3 * std::sin(2.0 * w * phi);
+    }
+    if (t > turn && t < turn + in) r = (t - turn) * kFeed;
+    text += fmt::format("{},{:.4f},{:.7f}\n", run, t + 100.0, kBar + r);
+  }
+}
+
+// A bar measures no angle: the way between feed-in and feed-out is divided evenly.
+TEST_F(TraceFiles, TimesBetweenTheMarksOfFeedInAndFeedOut) {
+  CircleTraceWords words = kWords;
+  words.marks = true;
+  const std::string text = "run,time_s,length_mm\n" + recording("ccw", 5.0) + recording("cw", 5.0);
+  const auto all = read(text, words);
+  ASSERT_TRUE(all.has_value()) << to_string(all.error().front());
+  ASSERT_EQ(all->traces.size(), 2U);
+  for (const CircleTrace& trace : all->traces) {
+    EXPECT_NEAR(static_cast<double>(trace.angle.size()), 2827.0, 2.0);  // of 56.5 s
+    for (std::size_t i = 0; i < trace.angle.size(); ++i) {
+      EXPECT_GE(trace.angle[i], 0.0);
+      EXPECT_LE(trace.angle[i], 360.0 * kRadPerDeg);
+      // 0.003 deg: what samples each 20 ms say of the marks.
+      EXPECT_NEAR(trace.deviation[i], -5e-3 * std::sin(2.0 * trace.angle[i]), 1e-6);
+    }
+  }
+  const auto found = signature(all->traces, 150.0);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_NEAR((*found)[SignatureTerm::square], 2.0 * 5e-3 / 150.0, 1e-8);
+  // Without the option the ramps are beyond the stroke.
+  EXPECT_TRUE(fault(text).starts_with("stroke-exceeded:"));
+  // A recording that begins on the circle has no mark.
+  std::string cut = "run,time_s,length_mm\n";
+  for (int i = 0; i < 2000; ++i) cut += fmt::format("ccw,{},{}\n", 0.02 * i, 150.001);
+  EXPECT_TRUE(fault(cut, words).starts_with("marks-missing:"));
+}
+
 }  // namespace
 }  // namespace frustum::instruments
