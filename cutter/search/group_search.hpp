@@ -70,9 +70,16 @@ class GroupSearch {
     if (pairs_.empty()) return;
     run(std::span(&group, 1));
   }
-  // In the order given, but that what promises most comes first.
   void run(std::span<const std::uint32_t> groups) {
-    for (const std::uint32_t group : groups) consider(group / 2, group % 2, group % 2 + 1);
+    run(groups, [](std::size_t) { return false; });
+  }
+  // In the order given, but that what promises most comes first. `is_held(i)`: whether group i of
+  // these adds nothing to what is covered now.
+  template <class IsHeld>
+  void run(std::span<const std::uint32_t> groups, const IsHeld& is_held) {
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      if (!is_held(i)) consider(groups[i] / 2, groups[i] % 2, groups[i] % 2 + 1);
+    }
     for (Candidate next; take_best(next);) {
       if (goal_.change() == next.change || goal_.wants(next.group, next.counted)) visit(next.group);
     }

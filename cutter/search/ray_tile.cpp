@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/constants.hpp"
+#include "cutter/search/end_fan.hpp"
 #include "cutter/search/group_search.hpp"
 #include "cutter/search/path_climb.hpp"
 #include "cutter/search/whole_sweep.hpp"
@@ -18,9 +19,11 @@ namespace {
 constexpr double kSurely = 1e-10;
 // The ends of an anchor count for so much less (mm): more than a solution leaves of an end.
 constexpr double kInward = 1e-6;
-// Groups are divided for a tile while they are this many times larger: finer ones are more to ask
-// than they save.
-constexpr double kCoarse = 4.0;
+// Groups are divided for a tile while they are this many times larger: at first, and once it is
+// known what is covered.
+constexpr double kCoarse = 4.0, kFine = 0.25;
+// Tiles of so many rays or fewer have fans; of so few or fewer are not looked at as a whole.
+constexpr std::size_t kFanned = 16, kFew = 4;
 // Planes that a ray meets at a smaller cosine bound badly.
 constexpr double kGrazingCover = 0.02;
 
@@ -52,15 +55,83 @@ struct Anchor {
 // One end of what a cutter at a pose covers, on all rays of a tile.
 struct HalfCover {
   std::array<Chord, 4> chords{};  // of the corners
-  Vec3 normal = Vec3::Zero();
-  double least = 0.0;  // no ray of the tile leaves the cutter before this height along the normal
-  bool is_beyond = false;  // the end is beyond the span on all rays
+  std::array<Vec3, 4> ends{};     // where they end
+  SeparatingPlane plane{};        // at the end of the middle ray
+  bool is_beyond = false;         // the end is beyond the span on all rays
   Anchor anchor{};
+
+  // All rays of the tile leave what is covered so far before any cutter of two groups, by planes,
+  // normal to these (mm). Between the corners the end is farther out than a straight line, and a
+  // plane of a group no nearer than one.
+  [[nodiscard]] Both behind(const GroupPair& groups) const {
+    const PairPlanes planes = plane.planes(groups);
+    Both least = both(kInfinity);
+    for (const Vec3& end : ends) {
+      const Vec3 off = end - plane.end();
+      least = smaller(planes.normal.dot(both(off)) - planes.turn * off.norm(), least);
+    }
+    const Both fall = planes.normal.dot(both(plane.beyond())) - planes.turn;
+    return fall > 0.0 ? least + planes.height - planes.lost : both(-kInfinity);
+  }
 };
 
 // What is covered for certain on all rays of a tile: between two planes.
 struct Cover {
   HalfCover lo{}, hi{};
+};
+
+// The planes at both ends of what is covered on one ray, for groups of a list.
+struct CoverFan {
+  EndFan lo{}, hi{};
+};
+
+// What the fans of a tile hold back on one ray, as its ends are found.
+class RayFans {
+ public:
+  RayFans(const RayQuestion& question, WholeSweep& goal, std::span<const CoverFan> fans)
+      : question_(question), goal_(goal), fans_(fans) {}
+
+  [[nodiscard]] bool hold(std::size_t group) {
+    if (fans_.empty()) return false;
+    if (goal_.change() != change_) look();
+    return std::ranges::any_of(held_, [&](const Held& by) {
+      return (by.hi == nullptr || by.hi->holds(group, by.at_hi)) &&
+             (by.lo == nullptr || by.lo->holds(group, by.at_lo));
+    });
+  }
+
+ private:
+  // By one piece of what is covered; null: that end is beyond the span.
+  struct Held {
+    const EndFan* lo = nullptr;
+    const EndFan* hi = nullptr;
+    EndFan::Beside at_lo{}, at_hi{};
+  };
+  void look() {
+    change_ = goal_.change();
+    held_.clear();
+    const Ray& ray = question_.ray;
+    for (const Chord& piece : goal_.known()) {
+      for (const CoverFan& fan : fans_) {
+        Held by;
+        if (piece.hi < question_.span.hi) {
+          by.hi = &fan.hi;
+          by.at_hi = fan.hi.beside(ray.at(piece.hi), ray.direction);
+        }
+        if (piece.lo > question_.span.lo) {
+          by.lo = &fan.lo;
+          by.at_lo = fan.lo.beside(ray.at(piece.lo), -ray.direction);
+        }
+        held_.push_back(by);
+      }
+    }
+  }
+
+  const RayQuestion& question_;
+  WholeSweep& goal_;
+  std::span<const CoverFan> fans_;
+  std::vector<Held> held_{};
+  int change_ = -1;
 };
 
 enum class Verdict : std::uint8_t { aside, level, open };
@@ -75,7 +146,7 @@ class TileSearch {
     if (sweep_.tree.empty() || question_.rays.empty()) return;
     lists_.assign(1, 0U);
     const Rectangle all{0, question_.row, 0, question_.rays.size() / question_.row};
-    divide(all, 0, std::nullopt);
+    divide(all, 0, std::nullopt, {});
   }
 
  private:
@@ -143,7 +214,8 @@ class TileSearch {
   }
 
   // The groups of lists_ from `first` on are what is open for this tile.
-  void divide(const Rectangle& at, std::size_t first, std::optional<std::size_t> neighbour) {
+  void divide(const Rectangle& at, std::size_t first, std::optional<std::size_t> neighbour,
+              std::span<const CoverFan> fans) {
     const auto middle = middle_of(at);
     if (!middle) return;
     std::size_t last = lists_.size();
@@ -155,22 +227,26 @@ class TileSearch {
       last = lists_.size();
     }
     if (first == last && anchors_.empty()) return;
-    solve(*middle, first, last, neighbour);
+    solve(*middle, first, last, neighbour, fans);
     done_[*middle] = 1;
     if (count == 1) return;
-    constexpr std::size_t kFew = 16;
     const std::size_t anchored = anchors_.size();
+    std::vector<CoverFan> own;
     if (count > kFew && middle_of(at)) {
       const Tile tile = tile_of(at, question_.rays[*middle]);
       find_covers(tile, *middle);
       filter(tile, first, last);
       first = last;
+      if (count <= kFanned) {
+        own = fans_of(*middle, first);
+        fans = own;
+      }
     }
     const std::size_t u = (at.u0 + at.u1 + 1) / 2, v = (at.v0 + at.v1 + 1) / 2;
     for (const Rectangle& part : {Rectangle{at.u0, u, at.v0, v}, Rectangle{u, at.u1, at.v0, v},
                                   Rectangle{at.u0, u, v, at.v1}, Rectangle{u, at.u1, v, at.v1}}) {
       const std::size_t kept = lists_.size();
-      divide(part, first, middle);
+      divide(part, first, middle, fans);
       lists_.resize(kept);
     }
     anchors_.resize(anchored);
@@ -178,7 +254,7 @@ class TileSearch {
 
   // One ray, from the answer of its neighbour on.
   void solve(std::size_t r, std::size_t first, std::size_t last,
-             const std::optional<std::size_t>& neighbour) {
+             const std::optional<std::size_t>& neighbour, std::span<const CoverFan> fans) {
     const RayQuestion question{question_.path, question_.rays[r], question_.spans[r],
                                question_.first_excluded};
     const EndPlanes planes(question, *sweep_.body);
@@ -201,15 +277,34 @@ class TileSearch {
           if (std::ranges::find(hints_, likely) != hints_.end()) continue;
           hints_.push_back(likely);
           search.solve_parts(likely);
+          if (const auto next = next_segment(question, goal, likely)) {
+            hints_.push_back(*next);
+            search.solve_parts(*next);
+          }
         }
       }
     }
-    search.run(std::span(lists_).subspan(first, last - first));
+    RayFans held(question, goal, fans);
+    search.run(std::span(lists_).subspan(first, last - first),
+               [&](std::size_t i) { return held.hold(i); });
     while (const auto segment = goal.unsolved()) {
       search.solve_parts(*segment);
       goal.settle(*segment);
     }
     swept_[r] = goal.swept();
+  }
+
+  // Where an end that the segment makes is one of its poses.
+  [[nodiscard]] static std::optional<std::uint32_t> next_segment(const RayQuestion& question,
+                                                                 const WholeSweep& goal,
+                                                                 std::uint32_t segment) {
+    for (const SweptInterval& c : goal.swept()) {
+      for (const SweptIntervalEnd& end : {c.lo, c.hi}) {
+        if (end.segment != segment) continue;
+        if (const auto next = next_at(question, segment, end.t)) return next;
+      }
+    }
+    return std::nullopt;
   }
 
   [[nodiscard]] const Body* body_of(std::uint32_t segment) const {
@@ -233,19 +328,45 @@ class TileSearch {
     const TangentPlane plane(part, pose, ray, *known, leaving);
     if (plane.along < kGrazingCover) return std::nullopt;
     cover.anchor = {&part, pose, end.segment, end.section, end.t};
-    cover.normal = plane.normal_across(pose.axis);
-    cover.least = kInfinity;
+    cover.plane = plane_at(ray, {leaving ? known->hi : known->lo, end.section,
+                                 leaving ? known->hi_face : known->lo_face, pose},
+                           leaving, body);
     cover.is_beyond = true;
     for (std::size_t k = 0; k < 4; ++k) {
       const auto chord = part.chord(pose, tile.corners[k]);
       if (!chord) return std::nullopt;
       cover.chords[k] = *chord;
       const double s = leaving ? chord->hi : chord->lo;
-      cover.least = std::min(cover.least, cover.normal.dot(tile.corners[k].at(s)));
+      cover.ends[k] = tile.corners[k].at(s);
       cover.is_beyond = cover.is_beyond && (leaving ? s >= tile.span.hi + 2.0 * kInward
                                                     : s <= tile.span.lo - 2.0 * kInward);
     }
     return cover;
+  }
+
+  // Of this tool's cutters; where another tool's makes the end, by the latitude of that one.
+  [[nodiscard]] SeparatingPlane plane_at(const Ray& ray, const EndContact& end, bool leaving,
+                                         const Body& body) const {
+    if (&body == sweep_.body) return {body, ray, end, leaving};
+    const Vec3 beyond = leaving ? ray.direction : Vec3(-ray.direction), point = ray.at(end.s);
+    const Facing facing = body.sections()[end.section].facing(end.face, end.pose, point, beyond);
+    return {*sweep_.body, point, beyond, {facing.axial, facing.lateral}};
+  }
+
+  // At the ends of what is covered of a ray, for the groups of lists_ from `first` on.
+  [[nodiscard]] std::vector<CoverFan> fans_of(std::size_t r, std::size_t first) const {
+    const RayQuestion question{question_.path, question_.rays[r], question_.spans[r],
+                               question_.first_excluded};
+    const EndPlanes planes(question, *sweep_.body);
+    const std::span<const std::uint32_t> groups = std::span(lists_).subspan(first);
+    const auto fan_at = [&](const SweptIntervalEnd& end, bool leaving) {
+      const bool within = leaving ? end.s < question.span.hi : end.s > question.span.lo;
+      if (!within || body_of(end.segment) != sweep_.body) return EndFan();
+      return EndFan(planes.at(end, leaving), sweep_.tree.pairs(), groups);
+    };
+    std::vector<CoverFan> fans;
+    for (const SweptInterval& c : swept_[r]) fans.push_back({fan_at(c.lo, false), fan_at(c.hi, true)});
+    return fans;
   }
 
   void find_covers(const Tile& tile, std::size_t middle) {
@@ -322,41 +443,69 @@ class TileSearch {
     return away > 1e-3 && apart(radial / away);
   }
 
-  [[nodiscard]] Verdict judge(const Tile& tile, const PoseGroup& group) const {
-    if (group.earliest >= question_.first_excluded) return Verdict::aside;
-    if ((group.box.min.array() > tile.box.max.array()).any() ||
-        (group.box.max.array() < tile.box.min.array()).any()) {
-      return Verdict::aside;
+  [[nodiscard]] bool is_out_of_reach(const Tile& tile, const GroupPair& groups,
+                                     std::size_t half) const {
+    if (groups.earliest[half] >= question_.first_excluded) return true;
+    for (std::size_t d = 0; d < 3; ++d) {
+      const auto k = static_cast<Eigen::Index>(d);
+      if (groups.box_min[d][half] > tile.box.max[k] || groups.box_max[d][half] < tile.box.min[k]) {
+        return true;
+      }
     }
-    bool is_level = false;
+    return false;
+  }
+
+  // Of the groups `from` to `to` of a pair.
+  [[nodiscard]] std::array<Verdict, 2> judge(const Tile& tile, const GroupPair& groups,
+                                             std::size_t from, std::size_t to) const {
+    std::array<Verdict, 2> verdicts{Verdict::aside, Verdict::aside};
+    for (std::size_t half = from; half < to; ++half) {
+      if (!is_out_of_reach(tile, groups, half)) verdicts[half] = Verdict::open;
+    }
     for (const Cover& c : covers_) {
-      const double lo = c.lo.is_beyond ? -kInfinity : height(group, c.lo.normal) - c.lo.least;
-      if (lo > kSurely) continue;
-      const double hi = c.hi.is_beyond ? -kInfinity : height(group, c.hi.normal) - c.hi.least;
-      if (hi > kSurely) continue;
-      if (lo < -1.5 * kSearchTolerance && hi < -1.5 * kSearchTolerance) return Verdict::aside;
-      is_level = true;
+      if (verdicts[0] == Verdict::aside && verdicts[1] == Verdict::aside) return verdicts;
+      const Both lo = c.lo.is_beyond ? both(kInfinity) : c.lo.behind(groups);
+      const Both hi = c.hi.is_beyond ? both(kInfinity) : c.hi.behind(groups);
+      const Both least = smaller(lo, hi);
+      for (std::size_t half = 0; half < 2; ++half) {
+        if (verdicts[half] == Verdict::aside || !(least[half] >= -kSurely)) continue;
+        verdicts[half] = least[half] >= kFanMargin ? Verdict::aside : Verdict::level;
+      }
     }
-    if (is_beside(tile, group)) return Verdict::aside;
-    return is_level ? Verdict::level : Verdict::open;
+    for (std::size_t half = 0; half < 2; ++half) {
+      if (verdicts[half] != Verdict::aside && is_beside(tile, groups.group(half)))
+        verdicts[half] = Verdict::aside;
+    }
+    return verdicts;
   }
 
   // Appends to lists_ what of it between first and last the tile leaves open. Groups that are much
   // larger than the tile are divided.
   void filter(const Tile& tile, std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k) sift(tile, lists_[k]);
+    for (std::size_t k = first; k < last; ++k)
+      sift(tile, lists_[k] / 2, lists_[k] % 2, lists_[k] % 2 + 1);
     covers_.clear();
   }
+  // The groups `from` to `to` of a pair; false if nothing of them was left aside.
+  bool sift(const Tile& tile, std::uint32_t pair, std::size_t from, std::size_t to) {
+    const GroupPair& groups = sweep_.tree.pairs()[pair];
+    const std::array<Verdict, 2> verdicts = judge(tile, groups, from, to);
+    bool any_aside = false;
+    for (std::size_t half = from; half < to; ++half) {
+      const bool left = verdicts[half] == Verdict::aside ||
+                        keep(tile, 2 * pair + static_cast<std::uint32_t>(half),
+                             verdicts[half] == Verdict::open);
+      any_aside = any_aside || left;
+    }
+    return any_aside;
+  }
   // False if nothing of it was left aside: then it stays whole.
-  bool sift(const Tile& tile, std::uint32_t index) {
-    const PoseGroup group = sweep_.tree.group(index);
-    const Verdict verdict = judge(tile, group);
-    if (verdict == Verdict::aside) return true;
+  bool keep(const Tile& tile, std::uint32_t index, bool divides) {
+    const GroupPair& groups = sweep_.tree.pairs()[index / 2];
     const std::size_t before = lists_.size();
-    if (verdict == Verdict::open && group.count == 0 && group.shift > kCoarse * tile.size) {
-      const bool lower = sift(tile, group.children);
-      const bool upper = sift(tile, group.children + 1);
-      if (lower || upper) return true;
+    const double fine = covers_.empty() ? kCoarse : kFine;
+    if (divides && groups.count[index % 2] == 0 && groups.shift[index % 2] > fine * tile.size) {
+      if (sift(tile, groups.next[index % 2], 0, 2)) return true;
       lists_.resize(before);
     }
     lists_.push_back(index);

@@ -21,6 +21,8 @@ using kinematics::PathSegment;
 using kinematics::ToolPath;
 
 constexpr double kPassedOver = 1e-9;  // mm
+// Of the radius of a ball: ends nearer to each other share what holds groups back.
+constexpr double kFanned = 0.2;
 
 // Least distance between a point and the body moving through it, or `least` if that is less; at
 // most kCoarse too small. No point of the body is faster than the motion says.
@@ -219,7 +221,9 @@ std::optional<SweepContact> SweptCutter::end_of_void(const Ray& ray, double from
       const auto segment = static_cast<std::uint32_t>(tag);
       if (&body_of(segment) == sweep.body) first[count++] = segment;
     }
-    if (advance_front(question, sweep, kPassedOver, groups, std::span(first).first(count), front)) {
+    EndFans* fans = likely.near != nullptr ? &likely.near->fans[tool] : nullptr;
+    if (advance_front(question, sweep, kPassedOver, groups, std::span(first).first(count), fans,
+                      front)) {
       moved = true;
       still = 1;
     }
@@ -234,8 +238,9 @@ bool SweptNear::empty() const {
 
 SweptNear SweptCutter::near(const Vec3& centre, double radius, std::uint32_t first_excluded,
                             const SweptNear* within) const {
-  SweptNear near{centre, radius, {}};
+  SweptNear near{.centre = centre, .radius = radius};
   near.groups.resize(sweeps_->size());
+  near.fans.assign(sweeps_->size(), EndFans(kFanned * radius));
   constexpr std::uint32_t kRoot = 0;
   for (std::size_t tool = 0; tool < sweeps_->size(); ++tool) {
     const ToolSweep& sweep = (*sweeps_)[tool];
@@ -278,6 +283,11 @@ SweepContact SweptCutter::contact(const Ray& ray, double s, std::uint32_t segmen
   constexpr double kSameEnd = 1e-6;  // mm
   SweptIntervalEnd end{.s = s, .segment = segment};
   double nearest = std::numeric_limits<double>::infinity();
+  if (body.is_convex()) {
+    const auto only = swept_end_at(body.sections().front(), motion, ray, s);
+    if (only && std::abs(only->s - s) <= kSameEnd)
+      return contact_of(ray, {s, segment, 0, only->t, only->face});
+  }
   const ConcaveSweep concave(body, motion, ray);
   for (std::uint32_t section = 0; section < body.sections().size(); ++section) {
     for (const SegmentInterval& i : swept_intervals(body.sections()[section], motion, ray)) {
