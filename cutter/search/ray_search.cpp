@@ -55,7 +55,7 @@ class WholeSweptInterval {
     return wants(group, {lo, hi});
   }
 
-  [[nodiscard]] PairLimit limit(const GroupPair& groups) {
+  [[nodiscard]] PairLimit limit(const GroupPair& groups, const PairSpan&) {
     const Held held = between([&](const SeparatingPlane& end) {
       const Both most = end.overreach(groups).most;
       return Held{most[0] <= 0.0, most[1] <= 0.0};
@@ -165,7 +165,7 @@ class Front {
   }
 
   // Whatever a group covers before the front does not matter.
-  [[nodiscard]] PairLimit limit(const GroupPair& groups) {
+  [[nodiscard]] PairLimit limit(const GroupPair& groups, const PairSpan&) {
     if (change_ == 0) return {};
     const Overreach over = plane().overreach(groups);
     const auto of = [&](std::size_t half) {
@@ -175,8 +175,9 @@ class Front {
     };
     return {of(0), of(1)};
   }
-  [[nodiscard]] double room(std::uint32_t, const ToolPose& from, const ToolPose& to) {
-    return change_ > 0 ? plane().room(from, to) : -kInfinity;
+  [[nodiscard]] double room(std::uint32_t segment, const ToolPose& from, const ToolPose& to) {
+    if (change_ == 0) return -kInfinity;
+    return segment == solved_ ? 0.0 : plane().room(from, to);
   }
 
   [[nodiscard]] std::span<const Chord> known() {
@@ -184,7 +185,10 @@ class Front {
     return {&known_, 1};
   }
   [[nodiscard]] std::span<const Chord> floors() { return known(); }
-  void take_solved(const SweptInterval& next) { take(next); }
+  void take_solved(const SweptInterval& next) {
+    take(next);
+    if (next.hi.s == front_.s && next.hi.segment == front_.segment) solved_ = front_.segment;
+  }
 
   // What begins beyond the front counts when the front has come there.
   void take(const SweptInterval& next) {
@@ -232,6 +236,7 @@ class Front {
 
   void move_to(const SweptIntervalEnd& end) {
     front_ = end;
+    solved_.reset();
     plane_.reset();
     ++change_;
   }
@@ -247,6 +252,7 @@ class Front {
   std::optional<SeparatingPlane> plane_{};  // at the front; made when first asked for
   std::vector<Deferred> deferred_{};
   std::vector<SweptInterval> ahead_{};
+  std::optional<std::uint32_t> solved_{};  // the segment that the front is an end of
   Chord known_{};
   int change_ = 0;
 };

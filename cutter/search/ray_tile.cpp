@@ -235,6 +235,7 @@ class TileSearch {
     if (count > kFew && middle_of(at)) {
       const Tile tile = tile_of(at, question_.rays[*middle]);
       find_covers(tile, *middle);
+      fans_follow_ = count <= kFanned;
       filter(tile, first, last);
       first = last;
       if (count <= kFanned) {
@@ -268,20 +269,14 @@ class TileSearch {
                  {chord->hi - kInward, anchor.segment, anchor.section, anchor.t, chord->hi_face}});
     }
     if (neighbour) {
-      hints_.clear();
-      for (const SweptInterval& c : swept_[*neighbour]) {
-        for (const bool leaving : {false, true}) {
-          const SweptIntervalEnd& end = leaving ? c.hi : c.lo;
-          if (body_of(end.segment) != sweep_.body) continue;
-          const std::uint32_t likely = climbed(question, *sweep_.body, end.segment, leaving);
-          if (std::ranges::find(hints_, likely) != hints_.end()) continue;
-          hints_.push_back(likely);
-          search.solve_parts(likely);
-          if (const auto next = next_segment(question, goal, likely)) {
-            hints_.push_back(*next);
-            search.solve_parts(*next);
-          }
-        }
+      find_hints(question, swept_[*neighbour]);
+      // First what their poses cover, so that ends inside of that need no solution.
+      for (const std::uint32_t likely : hints_) search.take_pose(likely);
+      for (std::size_t i = 0; i < hints_.size(); ++i) {
+        search.solve_parts(hints_[i]);
+        const auto t = goal.end_at_pose_of(hints_[i]);
+        const auto next = t ? next_at(question, hints_[i], *t) : std::nullopt;
+        if (next && std::ranges::find(hints_, *next) == hints_.end()) search.solve_parts(*next);
       }
     }
     RayFans held(question, goal, fans);
@@ -294,17 +289,17 @@ class TileSearch {
     swept_[r] = goal.swept();
   }
 
-  // Where an end that the segment makes is one of its poses.
-  [[nodiscard]] static std::optional<std::uint32_t> next_segment(const RayQuestion& question,
-                                                                 const WholeSweep& goal,
-                                                                 std::uint32_t segment) {
-    for (const SweptInterval& c : goal.swept()) {
-      for (const SweptIntervalEnd& end : {c.lo, c.hi}) {
-        if (end.segment != segment) continue;
-        if (const auto next = next_at(question, segment, end.t)) return next;
+  // Segments that likely make the ends of a ray beside one of which this is covered.
+  void find_hints(const RayQuestion& question, std::span<const SweptInterval> beside) {
+    hints_.clear();
+    for (const SweptInterval& c : beside) {
+      for (const bool leaving : {false, true}) {
+        const SweptIntervalEnd& end = leaving ? c.hi : c.lo;
+        if (body_of(end.segment) != sweep_.body) continue;
+        const std::uint32_t likely = climbed(question, *sweep_.body, end.segment, leaving);
+        if (std::ranges::find(hints_, likely) == hints_.end()) hints_.push_back(likely);
       }
     }
-    return std::nullopt;
   }
 
   [[nodiscard]] const Body* body_of(std::uint32_t segment) const {
@@ -505,7 +500,7 @@ class TileSearch {
     const std::size_t before = lists_.size();
     const double fine = covers_.empty() ? kCoarse : kFine;
     if (divides && groups.count[index % 2] == 0 && groups.shift[index % 2] > fine * tile.size) {
-      if (sift(tile, groups.next[index % 2], 0, 2)) return true;
+      if (sift(tile, groups.next[index % 2], 0, 2) || fans_follow_) return true;
       lists_.resize(before);
     }
     lists_.push_back(index);
@@ -519,6 +514,7 @@ class TileSearch {
   std::vector<std::uint32_t> lists_{};  // a stack: of each tile on the way down, what is open
   std::vector<std::uint32_t> hints_{};
   std::vector<Cover> covers_{};
+  bool fans_follow_ = false;
   std::vector<Anchor> anchors_{};  // a stack too
 };
 
