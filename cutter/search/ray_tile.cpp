@@ -21,7 +21,7 @@ constexpr double kSurely = 1e-10;
 constexpr double kInward = 1e-6;
 // Groups are divided for a tile while they are this many times larger: at first, and once it is
 // known what is covered.
-constexpr double kCoarse = 4.0, kFine = 0.25;
+constexpr double kCoarse = 4.0, kFine = 0.5;
 // Tiles of so many rays or fewer have fans; of so few or fewer are not looked at as a whole.
 constexpr std::size_t kFanned = 16, kFew = 4;
 // Planes that a ray meets at a smaller cosine bound badly.
@@ -369,7 +369,7 @@ class TileSearch {
     const Ray& ray = question_.rays[middle];
     for (const SweptInterval& c : swept_[middle]) {
       const auto lo = half_cover(tile, ray, c.lo, false), hi = half_cover(tile, ray, c.hi, true);
-      if (lo && hi && overlap(*lo, *hi)) {
+      if (lo && hi && are_linked(tile, *lo, *hi)) {
         add_cover({*lo, *hi});
         continue;
       }
@@ -392,13 +392,47 @@ class TileSearch {
     }
   }
 
-  // Chords of two convex cutters that overlap at all corners do so on all rays between.
-  [[nodiscard]] static bool overlap(const HalfCover& a, const HalfCover& b) {
+  // What a cutter where a segment begins covers of the corners.
+  struct Link {
+    std::uint32_t segment = 0;
+    std::array<Chord, 4> chords{};
+  };
+
+  // Whether cutters from the one to the other along the path link what both cover, on all rays of
+  // the tile. Those between are anchors then: groups left aside may hold them.
+  [[nodiscard]] bool are_linked(const Tile& tile, const HalfCover& lo, const HalfCover& hi) {
+    if (overlap(lo.chords, hi.chords)) return true;
+    constexpr int kHalvings = 5;
+    const std::size_t before = anchors_.size();
+    const Link a{lo.anchor.segment, lo.chords}, b{hi.anchor.segment, hi.chords};
+    const bool own = body_of(a.segment) == sweep_.body && body_of(b.segment) == sweep_.body;
+    if (own && link(tile, *lo.anchor.part, lo.anchor.section, a, b, kHalvings)) return true;
+    anchors_.resize(before);
+    return false;
+  }
+  [[nodiscard]] bool link(const Tile& tile, const Profile& part, std::uint32_t section,
+                          const Link& a, const Link& b, int halvings) {
+    if (overlap(a.chords, b.chords)) return true;
+    Link middle{(a.segment + b.segment) / 2};
+    if (halvings == 0 || middle.segment == a.segment || middle.segment == b.segment ||
+        body_of(middle.segment) != sweep_.body) {
+      return false;
+    }
+    const ToolPose& pose = question_.path->from(question_.path->segments[middle.segment]);
     for (std::size_t k = 0; k < 4; ++k) {
-      if (a.chords[k].lo > b.chords[k].hi - 4.0 * kInward ||
-          b.chords[k].lo > a.chords[k].hi - 4.0 * kInward) {
-        return false;
-      }
+      const auto chord = part.chord(pose, tile.corners[k]);
+      if (!chord) return false;
+      middle.chords[k] = *chord;
+    }
+    anchors_.push_back({&part, pose, middle.segment, section, 0.0});
+    return link(tile, part, section, a, middle, halvings - 1) &&
+           link(tile, part, section, middle, b, halvings - 1);
+  }
+
+  // Chords of two convex cutters that overlap at all corners do so on all rays between.
+  [[nodiscard]] static bool overlap(const std::array<Chord, 4>& a, const std::array<Chord, 4>& b) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (a[k].lo > b[k].hi - 4.0 * kInward || b[k].lo > a[k].hi - 4.0 * kInward) return false;
     }
     return true;
   }
