@@ -120,7 +120,13 @@ SeparatingPlane::Planes SeparatingPlane::touching(const BothVec& m, const BothVe
         round_.major < 0.0 ? rho - round_.major : larger(rho - round_.major, both(0.0));
     const Both above = z - round_.centre;
     const Both length = square_root(beside * beside + above * above);
-    const Both wanted = above / length;
+    // Towards the end; where the ray would come back to that plane, as much the other way.
+    const Both up = axis.dot(both(beyond_));
+    const Both out = (rho > kOnAxis ? 1.0 / rho : both(0.0)) * (m.dot(both(beyond_)) - z * up);
+    const Both along = smaller(beside * out + above * up, both(0.0));
+    const Both steep = out * out + up * up;
+    const Both back = steep > kOnAxis ? 2.0 * along / steep : both(0.0);
+    const Both wanted = (above - back * up) / length;
     at.axial = larger(smaller(wanted, both(most_axial_)), both(least_axial_));
     at.lateral = square_root(larger(1.0 - at.axial * at.axial, both(0.0)));
     offset = at.lateral * round_.major + at.axial * round_.centre + round_.radius;
