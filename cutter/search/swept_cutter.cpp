@@ -84,22 +84,21 @@ class NearGroups {
              std::uint32_t first_excluded, std::vector<std::uint32_t>& found)
       : path_(path), sweep_(sweep), ball_(ball), first_excluded_(first_excluded), found_(found) {}
 
-  // False if nothing of it was left aside: then it stays whole.
-  bool add(std::uint32_t index) {
+  void add(std::uint32_t index) {
     const PoseGroup group = sweep_.tree.group(index);
-    if (is_away(group)) return true;
-    const std::size_t before = found_.size();
-    if (group.count == 0 && group.shift > 0.5 * ball_.radius) {
-      const bool lower = add(group.children);
-      const bool upper = add(group.children + 1);
-      if (lower || upper || true) return true;
-      found_.resize(before);
+    if (is_away(group)) return;
+    if (group.count > 0 || group.shift <= kCoarsest * ball_.radius) {
+      found_.push_back(index);
+      return;
     }
-    found_.push_back(index);
-    return false;
+    add(group.children);
+    add(group.children + 1);
   }
 
  private:
+  // Of the radius of the ball: larger groups are divided.
+  static constexpr double kCoarsest = 0.5;
+
   [[nodiscard]] bool is_away(const PoseGroup& group) const {
     if (group.earliest >= first_excluded_) return true;
     const Vec3 beyond = (group.box.min - ball_.centre)

@@ -271,8 +271,10 @@ class HighestEnd {
     const double best = std::max(best_value_, floor_);
     if (std::isinf(best)) return false;
     const Vec3 point = ray_.at(leaving_ ? best : -best);
-    const double from_a = height_holds(a, b.pose, point), from_b = height_holds(b, a.pose, point);
-    return from_a > 0.0 && from_b > 0.0 && from_a + from_b >= 1.0;
+    const double from_a = height_holds(a, b.pose, point);
+    if (!(from_a > 0.0)) return false;
+    const double from_b = height_holds(b, a.pose, point);
+    return from_b > 0.0 && from_a + from_b >= 1.0;
   }
 
   // From a sample towards a pose: for what share of the way the point is surely not below the plane

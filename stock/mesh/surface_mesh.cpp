@@ -29,7 +29,7 @@ constexpr double kTooClose = 0.05;
 // Cells of a block, in each direction, whose rays share what may have cut there; first of a large
 // one, then of a small one in it.
 constexpr int kBlock = 8;
-constexpr int kSmallBlock = 2;
+constexpr int kSmallBlock = 4;
 // From a cell to where the rays of its vertex end, in pitches.
 constexpr double kAround = kLeaveCell + 0.5;
 
