@@ -23,8 +23,7 @@ EndFan::EndFan(const SeparatingPlane& plane, std::span<const GroupPair> pairs,
 }
 
 const EndFan* EndFans::of(const Maker& maker, const SeparatingPlane& plane,
-                          std::span<const GroupPair> pairs,
-                          std::span<const std::uint32_t> groups) {
+                          std::span<const GroupPair> pairs, std::span<const std::uint32_t> groups) {
   constexpr std::size_t kMost = 32;
   const EndFan* nearest = nullptr;
   double nearest2 = near_by_ * near_by_;

@@ -98,15 +98,14 @@ class Climb {
 
 }  // namespace
 
-std::optional<std::uint32_t> next_at(const RayQuestion& question, std::uint32_t segment,
-                                     double t) {
+std::optional<std::uint32_t> next_at(const RayQuestion& question, std::uint32_t segment, double t) {
   if ((t != 0.0 && t != 1.0) || (t == 0.0 && segment == 0)) return std::nullopt;
   const kinematics::ToolPath& path = *question.path;
   const std::uint32_t next = t == 0.0 ? segment - 1 : segment + 1;
   if (next >= path.segments.size() || next >= question.first_excluded) return std::nullopt;
   const auto &here = path.segments[segment], &there = path.segments[next];
-  const bool runs_on = t == 0.0 ? there.first_pose + 1 == here.first_pose
-                                : here.first_pose + 1 == there.first_pose;
+  const bool runs_on =
+      t == 0.0 ? there.first_pose + 1 == here.first_pose : here.first_pose + 1 == there.first_pose;
   if (!runs_on || path.blocks[there.block].tool != path.blocks[here.block].tool)
     return std::nullopt;
   return next;

@@ -233,7 +233,6 @@ class Front {
   }
 
  private:
-
   void move_to(const SweptIntervalEnd& end) {
     front_ = end;
     solved_.reset();

@@ -6,9 +6,10 @@
 #include <optional>
 
 #include "core/constants.hpp"
-#include "cutter/search/end_fan.hpp"
 #include "cutter/search/group_search.hpp"
 #include "cutter/search/path_climb.hpp"
+#include "cutter/search/ray_fans.hpp"
+#include "cutter/search/tile_cover.hpp"
 #include "cutter/search/whole_sweep.hpp"
 #include "cutter/sweep/tangent_plane.hpp"
 
@@ -30,108 +31,6 @@ constexpr double kGrazingCover = 0.02;
 // Rays [u0, u1) of rows [v0, v1).
 struct Rectangle {
   std::size_t u0 = 0, u1 = 0, v0 = 0, v1 = 0;
-};
-
-using Corners = std::array<Ray, 4>;
-
-// The rays of a tile: between four corner rays, whose origins are in one plane across them.
-struct Tile {
-  Corners corners{};
-  RaySpan span{};  // of all, along the corner rays
-  Box box{};
-  double size = 0.0;  // mm across
-};
-
-// A cutter that covers all rays of a tile beyond the span. Groups that are left aside for it may
-// hold its own segment: so it is asked itself.
-struct Anchor {
-  const Profile* part = nullptr;
-  ToolPose pose{};
-  std::uint32_t segment = 0;
-  std::uint32_t section = 0;
-  double t = 0.0;
-};
-
-// One end of what a cutter at a pose covers, on all rays of a tile.
-struct HalfCover {
-  std::array<Chord, 4> chords{};  // of the corners
-  std::array<Vec3, 4> ends{};     // where they end
-  SeparatingPlane plane{};        // at the end of the middle ray
-  bool is_beyond = false;         // the end is beyond the span on all rays
-  Anchor anchor{};
-
-  // All rays of the tile leave what is covered so far before any cutter of two groups, by planes,
-  // normal to these (mm). Between the corners the end is farther out than a straight line, and a
-  // plane of a group no nearer than one.
-  [[nodiscard]] Both behind(const GroupPair& groups) const {
-    const PairPlanes planes = plane.planes(groups);
-    Both least = both(kInfinity);
-    for (const Vec3& end : ends) {
-      const Vec3 off = end - plane.end();
-      least = smaller(planes.normal.dot(both(off)) - planes.turn * off.norm(), least);
-    }
-    const Both fall = planes.normal.dot(both(plane.beyond())) - planes.turn;
-    return fall > 0.0 ? least + planes.height - planes.lost : both(-kInfinity);
-  }
-};
-
-// What is covered for certain on all rays of a tile: between two planes.
-struct Cover {
-  HalfCover lo{}, hi{};
-};
-
-// The planes at both ends of what is covered on one ray, for groups of a list.
-struct CoverFan {
-  EndFan lo{}, hi{};
-};
-
-// What the fans of a tile hold back on one ray, as its ends are found.
-class RayFans {
- public:
-  RayFans(const RayQuestion& question, WholeSweep& goal, std::span<const CoverFan> fans)
-      : question_(question), goal_(goal), fans_(fans) {}
-
-  [[nodiscard]] bool hold(std::size_t group) {
-    if (fans_.empty()) return false;
-    if (goal_.change() != change_) look();
-    return std::ranges::any_of(held_, [&](const Held& by) {
-      return (by.hi == nullptr || by.hi->holds(group, by.at_hi)) &&
-             (by.lo == nullptr || by.lo->holds(group, by.at_lo));
-    });
-  }
-
- private:
-  // By one piece of what is covered; null: that end is beyond the span.
-  struct Held {
-    const EndFan* lo = nullptr;
-    const EndFan* hi = nullptr;
-    EndFan::Beside at_lo{}, at_hi{};
-  };
-  void look() {
-    change_ = goal_.change();
-    held_.clear();
-    const Ray& ray = question_.ray;
-    for (const Chord& piece : goal_.known()) {
-      for (const CoverFan& fan : fans_) {
-        Held by;
-        if (piece.hi < question_.span.hi) {
-          by.hi = &fan.hi;
-          by.at_hi = fan.hi.beside(ray.at(piece.hi), ray.direction);
-        }
-        if (piece.lo > question_.span.lo) {
-          by.lo = &fan.lo;
-          by.at_lo = fan.lo.beside(ray.at(piece.lo), -ray.direction);
-        }
-        held_.push_back(by);
-      }
-    }
-  }
-
-  const RayQuestion& question_;
-  WholeSweep& goal_;
-  std::span<const CoverFan> fans_;
-  std::vector<Held> held_{};
-  int change_ = -1;
 };
 
 enum class Verdict : std::uint8_t { aside, level, open };
@@ -175,11 +74,11 @@ class TileSearch {
     return best;
   }
 
-  [[nodiscard]] Tile tile_of(const Rectangle& at, const Ray& frame) const {
+  [[nodiscard]] RayTile tile_of(const Rectangle& at, const Ray& frame) const {
     const Vec3 d = frame.direction;
     const Vec3 e1 = d.unitOrthogonal(), e2 = d.cross(e1);
     double lo1 = kInfinity, hi1 = -kInfinity, lo2 = kInfinity, hi2 = -kInfinity;
-    Tile tile{.span = {kInfinity, -kInfinity}};
+    RayTile tile{.span = {kInfinity, -kInfinity}};
     for (std::size_t y = at.v0; y < at.v1; ++y) {
       for (std::size_t x = at.u0; x < at.u1; ++x) {
         const std::size_t r = index(x, y);
@@ -233,7 +132,7 @@ class TileSearch {
     const std::size_t anchored = anchors_.size();
     std::vector<CoverFan> own;
     if (count > kFew && middle_of(at)) {
-      const Tile tile = tile_of(at, question_.rays[*middle]);
+      const RayTile tile = tile_of(at, question_.rays[*middle]);
       find_covers(tile, *middle);
       fans_follow_ = count <= kFanned;
       filter(tile, first, last);
@@ -261,7 +160,7 @@ class TileSearch {
     const EndPlanes planes(question, *sweep_.body);
     WholeSweep goal(question, sweep_, planes, swept_[r]);
     GroupSearch search(question, sweep_, goal);
-    for (const Anchor& anchor : anchors_) {
+    for (const TileAnchor& anchor : anchors_) {
       const auto chord = anchor.part->chord(anchor.pose, question.ray);
       if (!chord) continue;
       // Its ends within the span are its segment's, which finds them itself.
@@ -308,7 +207,7 @@ class TileSearch {
   }
 
   // The cutter where it makes this end of the middle ray, seen from all rays of the tile.
-  [[nodiscard]] std::optional<HalfCover> half_cover(const Tile& tile, const Ray& ray,
+  [[nodiscard]] std::optional<HalfCover> half_cover(const RayTile& tile, const Ray& ray,
                                                     const SweptIntervalEnd& end,
                                                     bool leaving) const {
     if (end.section == kConcaveSurface) return std::nullopt;
@@ -323,8 +222,9 @@ class TileSearch {
     const TangentPlane plane(part, pose, ray, *known, leaving);
     if (plane.along < kGrazingCover) return std::nullopt;
     cover.anchor = {&part, pose, end.segment, end.section, end.t};
-    cover.plane = plane_at(ray, {leaving ? known->hi : known->lo, end.section,
-                                 leaving ? known->hi_face : known->lo_face, pose},
+    cover.plane = plane_at(ray,
+                           {leaving ? known->hi : known->lo, end.section,
+                            leaving ? known->hi_face : known->lo_face, pose},
                            leaving, body);
     cover.is_beyond = true;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -360,11 +260,12 @@ class TileSearch {
       return EndFan(planes.at(end, leaving), sweep_.tree.pairs(), groups);
     };
     std::vector<CoverFan> fans;
-    for (const SweptInterval& c : swept_[r]) fans.push_back({fan_at(c.lo, false), fan_at(c.hi, true)});
+    for (const SweptInterval& c : swept_[r])
+      fans.push_back({fan_at(c.lo, false), fan_at(c.hi, true)});
     return fans;
   }
 
-  void find_covers(const Tile& tile, std::size_t middle) {
+  void find_covers(const RayTile& tile, std::size_t middle) {
     covers_.clear();
     const Ray& ray = question_.rays[middle];
     for (const SweptInterval& c : swept_[middle]) {
@@ -381,10 +282,10 @@ class TileSearch {
     }
   }
 
-  void add_cover(const Cover& cover) {
+  void add_cover(const TileCover& cover) {
     covers_.push_back(cover);
     // What other tools cover is known of every ray.
-    const auto is_own = [&](const Anchor& anchor) {
+    const auto is_own = [&](const TileAnchor& anchor) {
       return body_of(anchor.segment) == sweep_.body;
     };
     for (const HalfCover& half : {cover.lo, cover.hi}) {
@@ -400,7 +301,7 @@ class TileSearch {
 
   // Whether cutters from the one to the other along the path link what both cover, on all rays of
   // the tile. Those between are anchors then: groups left aside may hold them.
-  [[nodiscard]] bool are_linked(const Tile& tile, const HalfCover& lo, const HalfCover& hi) {
+  [[nodiscard]] bool are_linked(const RayTile& tile, const HalfCover& lo, const HalfCover& hi) {
     if (overlap(lo.chords, hi.chords)) return true;
     constexpr int kHalvings = 5;
     const std::size_t before = anchors_.size();
@@ -410,7 +311,7 @@ class TileSearch {
     anchors_.resize(before);
     return false;
   }
-  [[nodiscard]] bool link(const Tile& tile, const Profile& part, std::uint32_t section,
+  [[nodiscard]] bool link(const RayTile& tile, const Profile& part, std::uint32_t section,
                           const Link& a, const Link& b, int halvings) {
     if (overlap(a.chords, b.chords)) return true;
     Link middle{(a.segment + b.segment) / 2};
@@ -444,7 +345,7 @@ class TileSearch {
     return most + normal.dot(group.middle.tip);
   }
 
-  [[nodiscard]] bool is_beside(const Tile& tile, const PoseGroup& group) const {
+  [[nodiscard]] bool is_beside(const RayTile& tile, const PoseGroup& group) const {
     const Vec3 d = tile.corners[0].direction;
     const Vec3 middle = 0.25 * (tile.corners[0].origin + tile.corners[1].origin +
                                 tile.corners[2].origin + tile.corners[3].origin);
@@ -472,7 +373,7 @@ class TileSearch {
     return away > 1e-3 && apart(radial / away);
   }
 
-  [[nodiscard]] bool is_out_of_reach(const Tile& tile, const GroupPair& groups,
+  [[nodiscard]] bool is_out_of_reach(const RayTile& tile, const GroupPair& groups,
                                      std::size_t half) const {
     if (groups.earliest[half] >= question_.first_excluded) return true;
     for (std::size_t d = 0; d < 3; ++d) {
@@ -485,13 +386,13 @@ class TileSearch {
   }
 
   // Of the groups `from` to `to` of a pair.
-  [[nodiscard]] std::array<Verdict, 2> judge(const Tile& tile, const GroupPair& groups,
+  [[nodiscard]] std::array<Verdict, 2> judge(const RayTile& tile, const GroupPair& groups,
                                              std::size_t from, std::size_t to) const {
     std::array<Verdict, 2> verdicts{Verdict::aside, Verdict::aside};
     for (std::size_t half = from; half < to; ++half) {
       if (!is_out_of_reach(tile, groups, half)) verdicts[half] = Verdict::open;
     }
-    for (const Cover& c : covers_) {
+    for (const TileCover& c : covers_) {
       if (verdicts[0] == Verdict::aside && verdicts[1] == Verdict::aside) return verdicts;
       const Both lo = c.lo.is_beyond ? both(kInfinity) : c.lo.behind(groups);
       const Both hi = c.hi.is_beyond ? both(kInfinity) : c.hi.behind(groups);
@@ -510,26 +411,26 @@ class TileSearch {
 
   // Appends to lists_ what of it between first and last the tile leaves open. Groups that are much
   // larger than the tile are divided.
-  void filter(const Tile& tile, std::size_t first, std::size_t last) {
+  void filter(const RayTile& tile, std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k)
       sift(tile, lists_[k] / 2, lists_[k] % 2, lists_[k] % 2 + 1);
     covers_.clear();
   }
   // The groups `from` to `to` of a pair; false if nothing of them was left aside.
-  bool sift(const Tile& tile, std::uint32_t pair, std::size_t from, std::size_t to) {
+  bool sift(const RayTile& tile, std::uint32_t pair, std::size_t from, std::size_t to) {
     const GroupPair& groups = sweep_.tree.pairs()[pair];
     const std::array<Verdict, 2> verdicts = judge(tile, groups, from, to);
     bool any_aside = false;
     for (std::size_t half = from; half < to; ++half) {
-      const bool left = verdicts[half] == Verdict::aside ||
-                        keep(tile, 2 * pair + static_cast<std::uint32_t>(half),
-                             verdicts[half] == Verdict::open);
+      const bool left =
+          verdicts[half] == Verdict::aside ||
+          keep(tile, 2 * pair + static_cast<std::uint32_t>(half), verdicts[half] == Verdict::open);
       any_aside = any_aside || left;
     }
     return any_aside;
   }
   // False if nothing of it was left aside: then it stays whole.
-  bool keep(const Tile& tile, std::uint32_t index, bool divides) {
+  bool keep(const RayTile& tile, std::uint32_t index, bool divides) {
     const GroupPair& groups = sweep_.tree.pairs()[index / 2];
     const std::size_t before = lists_.size();
     const double fine = covers_.empty() ? kCoarse : kFine;
@@ -547,9 +448,9 @@ class TileSearch {
   std::vector<std::uint8_t> done_;
   std::vector<std::uint32_t> lists_{};  // a stack: of each tile on the way down, what is open
   std::vector<std::uint32_t> hints_{};
-  std::vector<Cover> covers_{};
+  std::vector<TileCover> covers_{};
   bool fans_follow_ = false;
-  std::vector<Anchor> anchors_{};  // a stack too
+  std::vector<TileAnchor> anchors_{};  // a stack too
 };
 
 }  // namespace

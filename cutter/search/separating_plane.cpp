@@ -50,8 +50,9 @@ std::optional<Round> rim_of(std::span<const Zone> zones, std::size_t i, bool upp
 std::optional<Round> round_at(const Profile& section, const EndContact& end, const Vec3& point) {
   const auto zones = section.zones();
   const bool at_bottom = end.face == kBottomFace, at_top = end.face == kTopFace;
-  const std::size_t zone = at_bottom ? 0 : at_top ? zones.size() - 1
-                                                  : static_cast<std::size_t>(end.face);
+  const std::size_t zone = at_bottom ? 0
+                           : at_top  ? zones.size() - 1
+                                     : static_cast<std::size_t>(end.face);
   if (zones[zone].kind != ZoneKind::cone) {
     const Round face = round_face(zones[zone]);
     constexpr double kFlush = 1e-9;  // where a flat end goes on into the round face

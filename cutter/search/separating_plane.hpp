@@ -43,10 +43,10 @@ struct Overreach {
 // pose of its group passes it, but for what it is lowered by. At a place that is y from the end the
 // plane is normal.y higher, and lowered by at most turn |y| more.
 struct PairPlanes {
-  BothVec normal{};         // out of the cutters; units
-  Both height = both(0.0);  // of the end over the plane that comes nearest (mm)
-  Both lost = both(0.0);    // over that of any pose it may be lower by so much
-  Both turn = both(0.0);    // no axis of the group is farther from the middle's
+  BothVec normal{};                // out of the cutters; units
+  Both height = both(0.0);         // of the end over the plane that comes nearest (mm)
+  Both lost = both(0.0);           // over that of any pose it may be lower by so much
+  Both turn = both(0.0);           // no axis of the group is farther from the middle's
   Both in_the_middle = both(0.0);  // about the height over the plane of a cutter there
 };
 
@@ -106,8 +106,8 @@ class SeparatingPlane {
   const Body* body_ = nullptr;  // null: no proof
   Vec3 end_ = Vec3::Zero();
   Vec3 beyond_ = Vec3::Zero();
-  // Latitude of the plane: fixed on flanks, on round faces and at edges towards the end, but between
-  // the normals that they have.
+  // Latitude of the plane: fixed on flanks, on round faces and at edges towards the end, but
+  // between the normals that they have.
   double axial_ = 0.0, lateral_ = 0.0, offset_ = 0.0;
   bool is_round_ = false;
   Zone round_{};  // a rim is a torus of no minor radius

@@ -126,10 +126,9 @@ WholeSweep::Held WholeSweep::held_by(End& end, const GroupPair& groups, bool lea
   for (std::size_t half = 0; half < 2; ++half) {
     held.bounds[half] = over.most[half] < kInfinity;
     held.is_beyond[half] = over.height[half] < 0.0;
-    held.holds[half] =
-        held.bounds[half] && behind(depth_of(end.at, leaving) + over.most[half] + kBoundRounding +
-                                        over.rounding[half],
-                                    groups.earliest[half], end, leaving);
+    held.holds[half] = held.bounds[half] && behind(depth_of(end.at, leaving) + over.most[half] +
+                                                       kBoundRounding + over.rounding[half],
+                                                   groups.earliest[half], end, leaving);
   }
   return held;
 }

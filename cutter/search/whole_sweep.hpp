@@ -83,8 +83,8 @@ class WholeSweep {
   [[nodiscard]] static bool wins(const End& a, const End& b, bool leaving);
   [[nodiscard]] static bool behind(double depth, std::uint32_t earliest, const End& end,
                                    bool leaving);
-  // What an end says of two groups: that they are held back; that they are not ahead of it, and then
-  // whether a cutter in the middle likely covers more.
+  // What an end says of two groups: that they are held back; that they are not ahead of it, and
+  // then whether a cutter in the middle likely covers more.
   struct Held {
     std::array<bool, 2> holds{true, true}, bounds{true, true}, is_beyond{false, false};
   };

@@ -48,7 +48,7 @@ class Neighbourhood {
 
   // The block of this size that holds the cell.
   cutter::SweptNear* around(const std::array<int, 3>& cell, int size,
-                                  const cutter::SweptNear* within) {
+                            const cutter::SweptNear* within) {
     std::array<int, 4> key{0, 0, 0, size};
     for (std::size_t d = 0; d < 3; ++d) key[d] = cell[d] - ((cell[d] % size) + size) % size;
     auto found = known_.find(key);
