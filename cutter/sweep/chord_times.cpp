@@ -71,9 +71,9 @@ SeparatingPlane separate(const Profile& body, const ToolPose& pose, const Ray& r
       best_psi = i * kStep;
     }
   }
-  // 20 steps narrow the angle to 3e-5 rad, where the gap is flat within 1e-9 of the radius.
+  // 40 steps narrow the angle to 1e-8 rad, where the gap is flat within rounding.
   const GoldenBracket best = golden_section([&](double psi) { return -gap_at(psi); },
-                                            best_psi - kStep, best_psi + kStep, 0.0, 20);
+                                            best_psi - kStep, best_psi + kStep, 0.0, 40);
   const Vec3 normal = normal_at(best.middle());
   return {normal, gap_of(normal, body, pose, ray)};
 }
