@@ -38,7 +38,8 @@ using PairLimit = std::array<GroupLimit, 2>;
 
 // What promises most comes first. The goal knows what it still wants:
 //   RaySpan span()            where on the ray
-//   PairLimit limit(pair)     what do the ends found so far, by their planes, leave of the groups?
+//   PairLimit limit(pair, in_box)  what do the ends found so far, by their planes, leave of the
+//                             groups, which are there on the ray?
 //   double room(segment, from, to)  do they leave nothing of the segment, which is between these
 //                             poses? Not if it is less than 0, the less the more is left
 //   RaySpan counted(reach)    what of a reach counts, slack and rounding considered
@@ -70,9 +71,16 @@ class GroupSearch {
     if (pairs_.empty()) return;
     run(std::span(&group, 1));
   }
-  // In the order given, but that what promises most comes first.
   void run(std::span<const std::uint32_t> groups) {
-    for (const std::uint32_t group : groups) consider(group / 2, group % 2, group % 2 + 1);
+    run(groups, [](std::size_t) { return false; });
+  }
+  // In the order given, but that what promises most comes first. `is_held(i)`: whether group i of
+  // these adds nothing to what is covered now.
+  template <class IsHeld>
+  void run(std::span<const std::uint32_t> groups, const IsHeld& is_held) {
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      if (!is_held(i)) consider(groups[i] / 2, groups[i] % 2, groups[i] % 2 + 1);
+    }
     for (Candidate next; take_best(next);) {
       if (goal_.change() == next.change || goal_.wants(next.group, next.counted)) visit(next.group);
     }
@@ -83,6 +91,8 @@ class GroupSearch {
     }
   }
 
+  // What the cutter covers where this segment begins.
+  void take_pose(std::uint32_t segment) { take_representative(segment); }
   // What the convex parts cover in this segment, whatever is covered already.
   void solve_parts(std::uint32_t segment) { solve_parts(segment, motion_of(segment)); }
 
@@ -114,7 +124,7 @@ class GroupSearch {
                                  goal_.counted({span.lo, span.hi}));
     }
     if (!wanted[0] && !wanted[1]) return;
-    const PairLimit limits = goal_.limit(groups);
+    const PairLimit limits = goal_.limit(groups, in_box);
     for (std::size_t half = from; half < to; ++half) {
       if (!wanted[half] || limits[half].holds) continue;
       judge(groups, 2 * pair + static_cast<std::uint32_t>(half), limits[half],

@@ -21,39 +21,43 @@ class Climb {
     if (here == -kInfinity && next == -kInfinity) return segment_;
     // Poses `at` and `beyond` in the sense of the climb; the best is between `from` and `beyond`.
     const std::int64_t sense = next > here ? 1 : -1;
-    std::int64_t from = next > here ? 0 : 1, at = next > here ? 1 : 0;
-    double best = std::max(here, next);
+    Place from{next > here ? 0 : 1, std::min(here, next)};
+    Place best{next > here ? 1 : 0, std::max(here, next)};
     std::int64_t step = 1;
     for (;;) {
-      const std::int64_t beyond = at + sense * step;
-      const double there = depth(beyond);
-      if (!(there > best)) return narrowed(from, at, best, beyond);
-      from = at;
-      at = beyond;
-      best = there;
+      const Place beyond = at(best.pose + sense * step);
+      if (!(beyond.depth > best.depth)) return narrowed(from, best, beyond);
+      from = best;
+      best = beyond;
       step *= 2;
     }
   }
 
  private:
+  struct Place {
+    std::int64_t pose;  // counted from the first of the segment
+    double depth;
+  };
+  [[nodiscard]] Place at(std::int64_t pose) const { return {pose, depth(pose)}; }
+
   // The segment beside the best of the poses from a to c; b is between them and better.
-  [[nodiscard]] std::uint32_t narrowed(std::int64_t a, std::int64_t b, double best,
-                                       std::int64_t c) const {
-    while (std::abs(c - a) > 2) {
-      const bool upper = std::abs(c - b) > std::abs(b - a);
-      const std::int64_t middle = upper ? (b + c) / 2 : (a + b) / 2;
-      if (middle == b) break;
-      const double there = depth(middle);
-      if (there > best) {
+  [[nodiscard]] std::uint32_t narrowed(Place a, Place b, Place c) const {
+    while (std::abs(c.pose - a.pose) > 2) {
+      const bool upper = std::abs(c.pose - b.pose) > std::abs(b.pose - a.pose);
+      const Place middle = at(upper ? (b.pose + c.pose) / 2 : (a.pose + b.pose) / 2);
+      if (middle.pose == b.pose) break;
+      if (middle.depth > b.depth) {
         (upper ? a : c) = b;
         b = middle;
-        best = there;
       } else {
         (upper ? c : a) = middle;
       }
     }
-    const std::int64_t after = depth(b + 1) > depth(b - 1) ? b : b - 1;
-    return segment_at(after).value_or(segment_at(b).value_or(segment_));
+    const auto beside = [&](std::int64_t pose) {
+      return a.pose == pose ? a.depth : c.pose == pose ? c.depth : depth(pose);
+    };
+    const std::int64_t after = beside(b.pose + 1) > beside(b.pose - 1) ? b.pose : b.pose - 1;
+    return segment_at(after).value_or(segment_at(b.pose).value_or(segment_));
   }
 
   // Counted from the segment on; nothing where the path of this tool does not run on.
@@ -93,6 +97,19 @@ class Climb {
 };
 
 }  // namespace
+
+std::optional<std::uint32_t> next_at(const RayQuestion& question, std::uint32_t segment, double t) {
+  if ((t != 0.0 && t != 1.0) || (t == 0.0 && segment == 0)) return std::nullopt;
+  const kinematics::ToolPath& path = *question.path;
+  const std::uint32_t next = t == 0.0 ? segment - 1 : segment + 1;
+  if (next >= path.segments.size() || next >= question.first_excluded) return std::nullopt;
+  const auto &here = path.segments[segment], &there = path.segments[next];
+  const bool runs_on =
+      t == 0.0 ? there.first_pose + 1 == here.first_pose : here.first_pose + 1 == there.first_pose;
+  if (!runs_on || path.blocks[there.block].tool != path.blocks[here.block].tool)
+    return std::nullopt;
+  return next;
+}
 
 std::uint32_t climbed(const RayQuestion& question, const Body& body, std::uint32_t segment,
                       bool leaving) {

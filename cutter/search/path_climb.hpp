@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "cutter/search/ray_search.hpp"
 
@@ -17,5 +18,10 @@ namespace frustum::cutter {
 // `leaving`: what is covered is before the end, else after it.
 [[nodiscard]] std::uint32_t climbed(const RayQuestion& question, const Body& body,
                                     std::uint32_t segment, bool leaving);
+
+// The segment that goes on from an end of this one, where the cutter makes an end of what is
+// covered at that time; nothing between its poses, or where the path does not run on.
+[[nodiscard]] std::optional<std::uint32_t> next_at(const RayQuestion& question,
+                                                   std::uint32_t segment, double t);
 
 }  // namespace frustum::cutter

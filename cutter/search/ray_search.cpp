@@ -55,7 +55,7 @@ class WholeSweptInterval {
     return wants(group, {lo, hi});
   }
 
-  [[nodiscard]] PairLimit limit(const GroupPair& groups) {
+  [[nodiscard]] PairLimit limit(const GroupPair& groups, const PairSpan&) {
     const Held held = between([&](const SeparatingPlane& end) {
       const Both most = end.overreach(groups).most;
       return Held{most[0] <= 0.0, most[1] <= 0.0};
@@ -165,7 +165,7 @@ class Front {
   }
 
   // Whatever a group covers before the front does not matter.
-  [[nodiscard]] PairLimit limit(const GroupPair& groups) {
+  [[nodiscard]] PairLimit limit(const GroupPair& groups, const PairSpan&) {
     if (change_ == 0) return {};
     const Overreach over = plane().overreach(groups);
     const auto of = [&](std::size_t half) {
@@ -175,8 +175,9 @@ class Front {
     };
     return {of(0), of(1)};
   }
-  [[nodiscard]] double room(std::uint32_t, const ToolPose& from, const ToolPose& to) {
-    return change_ > 0 ? plane().room(from, to) : -kInfinity;
+  [[nodiscard]] double room(std::uint32_t segment, const ToolPose& from, const ToolPose& to) {
+    if (change_ == 0) return -kInfinity;
+    return segment == solved_ ? 0.0 : plane().room(from, to);
   }
 
   [[nodiscard]] std::span<const Chord> known() {
@@ -184,7 +185,10 @@ class Front {
     return {&known_, 1};
   }
   [[nodiscard]] std::span<const Chord> floors() { return known(); }
-  void take_solved(const SweptInterval& next) { take(next); }
+  void take_solved(const SweptInterval& next) {
+    take(next);
+    if (next.hi.s == front_.s && next.hi.segment == front_.segment) solved_ = front_.segment;
+  }
 
   // What begins beyond the front counts when the front has come there.
   void take(const SweptInterval& next) {
@@ -221,15 +225,17 @@ class Front {
   }
 
   [[nodiscard]] bool moved() const { return change_ > 0; }
-
- private:
+  [[nodiscard]] const SweptIntervalEnd& end() const { return front_; }
+  // Precondition: it has moved.
   [[nodiscard]] const SeparatingPlane& plane() {
     if (!plane_) plane_ = planes_.at(front_, true);
     return *plane_;
   }
 
+ private:
   void move_to(const SweptIntervalEnd& end) {
     front_ = end;
+    solved_.reset();
     plane_.reset();
     ++change_;
   }
@@ -245,7 +251,38 @@ class Front {
   std::optional<SeparatingPlane> plane_{};  // at the front; made when first asked for
   std::vector<Deferred> deferred_{};
   std::vector<SweptInterval> ahead_{};
+  std::optional<std::uint32_t> solved_{};  // the segment that the front is an end of
   Chord known_{};
+  int change_ = 0;
+};
+
+// What fans hold back of a list of groups as the front moves.
+class FrontFans {
+ public:
+  FrontFans(Front& goal, const ToolSweep& sweep, std::span<const std::uint32_t> groups,
+            EndFans* fans)
+      : goal_(goal), pairs_(sweep.tree.pairs()), groups_(groups), fans_(fans) {}
+
+  [[nodiscard]] bool hold(std::size_t i) {
+    if (fans_ == nullptr || !goal_.moved()) return false;
+    if (goal_.change() != change_) look();
+    return fan_ != nullptr && fan_->holds(i, at_);
+  }
+
+ private:
+  void look() {
+    change_ = goal_.change();
+    const SeparatingPlane& plane = goal_.plane();
+    fan_ = fans_->of({goal_.end().section, goal_.end().face}, plane, pairs_, groups_);
+    if (fan_ != nullptr) at_ = fan_->beside(plane.end(), plane.beyond());
+  }
+
+  Front& goal_;
+  std::span<const GroupPair> pairs_;
+  std::span<const std::uint32_t> groups_;
+  EndFans* fans_;
+  const EndFan* fan_ = nullptr;
+  EndFan::Beside at_{};
   int change_ = 0;
 };
 
@@ -274,19 +311,23 @@ bool advance_front(const RayQuestion& question, const ToolSweep& sweep, double g
                    SweptIntervalEnd& front) {
   constexpr std::uint32_t kRoot = 0;
   if (sweep.tree.empty()) return false;
-  return advance_front(question, sweep, gap, {&kRoot, 1}, {}, front);
+  return advance_front(question, sweep, gap, {&kRoot, 1}, {}, nullptr, front);
 }
 
 bool advance_front(const RayQuestion& question, const ToolSweep& sweep, double gap,
                    std::span<const std::uint32_t> groups, std::span<const std::uint32_t> first,
-                   SweptIntervalEnd& front) {
+                   EndFans* fans, SweptIntervalEnd& front) {
   const EndPlanes planes(question, *sweep.body);
   Front goal(question.span, planes, gap, front);
   GroupSearch search(question, sweep, goal);
   for (const std::uint32_t segment : first) {
-    search.solve_parts(climbed(question, *sweep.body, segment, true));
+    const std::uint32_t likely = climbed(question, *sweep.body, segment, true);
+    search.solve_parts(likely);
+    if (goal.end().segment != likely || !goal.moved()) continue;
+    if (const auto next = next_at(question, likely, goal.end().t)) search.solve_parts(*next);
   }
-  search.run(groups);
+  FrontFans held(goal, sweep, groups, fans);
+  search.run(groups, [&](std::size_t i) { return held.hold(i); });
   while (const auto group = goal.next_deferred()) search.run(*group);
   return goal.moved();
 }

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "cutter/body/body.hpp"
+#include "cutter/search/end_fan.hpp"
 #include "cutter/search/pose_tree.hpp"
 #include "cutter/sweep/segment_sweep.hpp"
 #include "kinematics/path/tool_path.hpp"
@@ -60,9 +61,10 @@ void extend_swept_interval(const RayQuestion& question, const ToolSweep& sweep,
 // than `gap` are passed over.
 bool advance_front(const RayQuestion& question, const ToolSweep& sweep, double gap,
                    SweptIntervalEnd& front);
-// The same where nothing else counts than `groups`; segments in `first` are asked first.
+// The same where nothing else counts than `groups`; segments in `first` are asked first. `fans`: of
+// these groups at ends near by, or null; those that are missing are added.
 bool advance_front(const RayQuestion& question, const ToolSweep& sweep, double gap,
                    std::span<const std::uint32_t> groups, std::span<const std::uint32_t> first,
-                   SweptIntervalEnd& front);
+                   EndFans* fans, SweptIntervalEnd& front);
 
 }  // namespace frustum::cutter

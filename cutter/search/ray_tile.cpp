@@ -8,6 +8,8 @@
 #include "core/constants.hpp"
 #include "cutter/search/group_search.hpp"
 #include "cutter/search/path_climb.hpp"
+#include "cutter/search/ray_fans.hpp"
+#include "cutter/search/tile_cover.hpp"
 #include "cutter/search/whole_sweep.hpp"
 #include "cutter/sweep/tangent_plane.hpp"
 
@@ -18,49 +20,17 @@ namespace {
 constexpr double kSurely = 1e-10;
 // The ends of an anchor count for so much less (mm): more than a solution leaves of an end.
 constexpr double kInward = 1e-6;
-// Groups are divided for a tile while they are this many times larger: finer ones are more to ask
-// than they save.
-constexpr double kCoarse = 4.0;
+// Groups are divided for a tile while they are this many times larger: at first, and once it is
+// known what is covered.
+constexpr double kCoarse = 4.0, kFine = 0.5;
+// Tiles of so many rays or fewer have fans; of so few or fewer are not looked at as a whole.
+constexpr std::size_t kFanned = 16, kFew = 4;
 // Planes that a ray meets at a smaller cosine bound badly.
 constexpr double kGrazingCover = 0.02;
 
 // Rays [u0, u1) of rows [v0, v1).
 struct Rectangle {
   std::size_t u0 = 0, u1 = 0, v0 = 0, v1 = 0;
-};
-
-using Corners = std::array<Ray, 4>;
-
-// The rays of a tile: between four corner rays, whose origins are in one plane across them.
-struct Tile {
-  Corners corners{};
-  RaySpan span{};  // of all, along the corner rays
-  Box box{};
-  double size = 0.0;  // mm across
-};
-
-// A cutter that covers all rays of a tile beyond the span. Groups that are left aside for it may
-// hold its own segment: so it is asked itself.
-struct Anchor {
-  const Profile* part = nullptr;
-  ToolPose pose{};
-  std::uint32_t segment = 0;
-  std::uint32_t section = 0;
-  double t = 0.0;
-};
-
-// One end of what a cutter at a pose covers, on all rays of a tile.
-struct HalfCover {
-  std::array<Chord, 4> chords{};  // of the corners
-  Vec3 normal = Vec3::Zero();
-  double least = 0.0;  // no ray of the tile leaves the cutter before this height along the normal
-  bool is_beyond = false;  // the end is beyond the span on all rays
-  Anchor anchor{};
-};
-
-// What is covered for certain on all rays of a tile: between two planes.
-struct Cover {
-  HalfCover lo{}, hi{};
 };
 
 enum class Verdict : std::uint8_t { aside, level, open };
@@ -75,7 +45,7 @@ class TileSearch {
     if (sweep_.tree.empty() || question_.rays.empty()) return;
     lists_.assign(1, 0U);
     const Rectangle all{0, question_.row, 0, question_.rays.size() / question_.row};
-    divide(all, 0, std::nullopt);
+    divide(all, 0, std::nullopt, {});
   }
 
  private:
@@ -104,11 +74,11 @@ class TileSearch {
     return best;
   }
 
-  [[nodiscard]] Tile tile_of(const Rectangle& at, const Ray& frame) const {
+  [[nodiscard]] RayTile tile_of(const Rectangle& at, const Ray& frame) const {
     const Vec3 d = frame.direction;
     const Vec3 e1 = d.unitOrthogonal(), e2 = d.cross(e1);
     double lo1 = kInfinity, hi1 = -kInfinity, lo2 = kInfinity, hi2 = -kInfinity;
-    Tile tile{.span = {kInfinity, -kInfinity}};
+    RayTile tile{.span = {kInfinity, -kInfinity}};
     for (std::size_t y = at.v0; y < at.v1; ++y) {
       for (std::size_t x = at.u0; x < at.u1; ++x) {
         const std::size_t r = index(x, y);
@@ -143,7 +113,8 @@ class TileSearch {
   }
 
   // The groups of lists_ from `first` on are what is open for this tile.
-  void divide(const Rectangle& at, std::size_t first, std::optional<std::size_t> neighbour) {
+  void divide(const Rectangle& at, std::size_t first, std::optional<std::size_t> neighbour,
+              std::span<const CoverFan> fans) {
     const auto middle = middle_of(at);
     if (!middle) return;
     std::size_t last = lists_.size();
@@ -155,22 +126,27 @@ class TileSearch {
       last = lists_.size();
     }
     if (first == last && anchors_.empty()) return;
-    solve(*middle, first, last, neighbour);
+    solve(*middle, first, last, neighbour, fans);
     done_[*middle] = 1;
     if (count == 1) return;
-    constexpr std::size_t kFew = 16;
     const std::size_t anchored = anchors_.size();
+    std::vector<CoverFan> own;
     if (count > kFew && middle_of(at)) {
-      const Tile tile = tile_of(at, question_.rays[*middle]);
+      const RayTile tile = tile_of(at, question_.rays[*middle]);
       find_covers(tile, *middle);
+      fans_follow_ = count <= kFanned;
       filter(tile, first, last);
       first = last;
+      if (count <= kFanned) {
+        own = fans_of(*middle, first);
+        fans = own;
+      }
     }
     const std::size_t u = (at.u0 + at.u1 + 1) / 2, v = (at.v0 + at.v1 + 1) / 2;
     for (const Rectangle& part : {Rectangle{at.u0, u, at.v0, v}, Rectangle{u, at.u1, at.v0, v},
                                   Rectangle{at.u0, u, v, at.v1}, Rectangle{u, at.u1, v, at.v1}}) {
       const std::size_t kept = lists_.size();
-      divide(part, first, middle);
+      divide(part, first, middle, fans);
       lists_.resize(kept);
     }
     anchors_.resize(anchored);
@@ -178,13 +154,13 @@ class TileSearch {
 
   // One ray, from the answer of its neighbour on.
   void solve(std::size_t r, std::size_t first, std::size_t last,
-             const std::optional<std::size_t>& neighbour) {
+             const std::optional<std::size_t>& neighbour, std::span<const CoverFan> fans) {
     const RayQuestion question{question_.path, question_.rays[r], question_.spans[r],
                                question_.first_excluded};
     const EndPlanes planes(question, *sweep_.body);
     WholeSweep goal(question, sweep_, planes, swept_[r]);
     GroupSearch search(question, sweep_, goal);
-    for (const Anchor& anchor : anchors_) {
+    for (const TileAnchor& anchor : anchors_) {
       const auto chord = anchor.part->chord(anchor.pose, question.ray);
       if (!chord) continue;
       // Its ends within the span are its segment's, which finds them itself.
@@ -192,24 +168,37 @@ class TileSearch {
                  {chord->hi - kInward, anchor.segment, anchor.section, anchor.t, chord->hi_face}});
     }
     if (neighbour) {
-      hints_.clear();
-      for (const SweptInterval& c : swept_[*neighbour]) {
-        for (const bool leaving : {false, true}) {
-          const SweptIntervalEnd& end = leaving ? c.hi : c.lo;
-          if (body_of(end.segment) != sweep_.body) continue;
-          const std::uint32_t likely = climbed(question, *sweep_.body, end.segment, leaving);
-          if (std::ranges::find(hints_, likely) != hints_.end()) continue;
-          hints_.push_back(likely);
-          search.solve_parts(likely);
-        }
+      find_hints(question, swept_[*neighbour]);
+      // First what their poses cover, so that ends inside of that need no solution.
+      for (const std::uint32_t likely : hints_) search.take_pose(likely);
+      for (std::size_t i = 0; i < hints_.size(); ++i) {
+        search.solve_parts(hints_[i]);
+        const auto t = goal.end_at_pose_of(hints_[i]);
+        const auto next = t ? next_at(question, hints_[i], *t) : std::nullopt;
+        if (next && std::ranges::find(hints_, *next) == hints_.end()) search.solve_parts(*next);
       }
     }
-    search.run(std::span(lists_).subspan(first, last - first));
+    RayFans held(question, goal, fans);
+    search.run(std::span(lists_).subspan(first, last - first),
+               [&](std::size_t i) { return held.hold(i); });
     while (const auto segment = goal.unsolved()) {
       search.solve_parts(*segment);
       goal.settle(*segment);
     }
     swept_[r] = goal.swept();
+  }
+
+  // Segments that likely make the ends of a ray beside one of which this is covered.
+  void find_hints(const RayQuestion& question, std::span<const SweptInterval> beside) {
+    hints_.clear();
+    for (const SweptInterval& c : beside) {
+      for (const bool leaving : {false, true}) {
+        const SweptIntervalEnd& end = leaving ? c.hi : c.lo;
+        if (body_of(end.segment) != sweep_.body) continue;
+        const std::uint32_t likely = climbed(question, *sweep_.body, end.segment, leaving);
+        if (std::ranges::find(hints_, likely) == hints_.end()) hints_.push_back(likely);
+      }
+    }
   }
 
   [[nodiscard]] const Body* body_of(std::uint32_t segment) const {
@@ -218,7 +207,7 @@ class TileSearch {
   }
 
   // The cutter where it makes this end of the middle ray, seen from all rays of the tile.
-  [[nodiscard]] std::optional<HalfCover> half_cover(const Tile& tile, const Ray& ray,
+  [[nodiscard]] std::optional<HalfCover> half_cover(const RayTile& tile, const Ray& ray,
                                                     const SweptIntervalEnd& end,
                                                     bool leaving) const {
     if (end.section == kConcaveSurface) return std::nullopt;
@@ -233,27 +222,55 @@ class TileSearch {
     const TangentPlane plane(part, pose, ray, *known, leaving);
     if (plane.along < kGrazingCover) return std::nullopt;
     cover.anchor = {&part, pose, end.segment, end.section, end.t};
-    cover.normal = plane.normal_across(pose.axis);
-    cover.least = kInfinity;
+    cover.plane = plane_at(ray,
+                           {leaving ? known->hi : known->lo, end.section,
+                            leaving ? known->hi_face : known->lo_face, pose},
+                           leaving, body);
     cover.is_beyond = true;
     for (std::size_t k = 0; k < 4; ++k) {
       const auto chord = part.chord(pose, tile.corners[k]);
       if (!chord) return std::nullopt;
       cover.chords[k] = *chord;
       const double s = leaving ? chord->hi : chord->lo;
-      cover.least = std::min(cover.least, cover.normal.dot(tile.corners[k].at(s)));
+      cover.ends[k] = tile.corners[k].at(s);
       cover.is_beyond = cover.is_beyond && (leaving ? s >= tile.span.hi + 2.0 * kInward
                                                     : s <= tile.span.lo - 2.0 * kInward);
     }
     return cover;
   }
 
-  void find_covers(const Tile& tile, std::size_t middle) {
+  // Of this tool's cutters; where another tool's makes the end, by the latitude of that one.
+  [[nodiscard]] SeparatingPlane plane_at(const Ray& ray, const EndContact& end, bool leaving,
+                                         const Body& body) const {
+    if (&body == sweep_.body) return {body, ray, end, leaving};
+    const Vec3 beyond = leaving ? ray.direction : Vec3(-ray.direction), point = ray.at(end.s);
+    const Facing facing = body.sections()[end.section].facing(end.face, end.pose, point, beyond);
+    return {*sweep_.body, point, beyond, {facing.axial, facing.lateral}};
+  }
+
+  // At the ends of what is covered of a ray, for the groups of lists_ from `first` on.
+  [[nodiscard]] std::vector<CoverFan> fans_of(std::size_t r, std::size_t first) const {
+    const RayQuestion question{question_.path, question_.rays[r], question_.spans[r],
+                               question_.first_excluded};
+    const EndPlanes planes(question, *sweep_.body);
+    const std::span<const std::uint32_t> groups = std::span(lists_).subspan(first);
+    const auto fan_at = [&](const SweptIntervalEnd& end, bool leaving) {
+      const bool within = leaving ? end.s < question.span.hi : end.s > question.span.lo;
+      if (!within || body_of(end.segment) != sweep_.body) return EndFan();
+      return EndFan(planes.at(end, leaving), sweep_.tree.pairs(), groups);
+    };
+    std::vector<CoverFan> fans;
+    for (const SweptInterval& c : swept_[r])
+      fans.push_back({fan_at(c.lo, false), fan_at(c.hi, true)});
+    return fans;
+  }
+
+  void find_covers(const RayTile& tile, std::size_t middle) {
     covers_.clear();
     const Ray& ray = question_.rays[middle];
     for (const SweptInterval& c : swept_[middle]) {
       const auto lo = half_cover(tile, ray, c.lo, false), hi = half_cover(tile, ray, c.hi, true);
-      if (lo && hi && overlap(*lo, *hi)) {
+      if (lo && hi && are_linked(tile, *lo, *hi)) {
         add_cover({*lo, *hi});
         continue;
       }
@@ -265,10 +282,10 @@ class TileSearch {
     }
   }
 
-  void add_cover(const Cover& cover) {
+  void add_cover(const TileCover& cover) {
     covers_.push_back(cover);
     // What other tools cover is known of every ray.
-    const auto is_own = [&](const Anchor& anchor) {
+    const auto is_own = [&](const TileAnchor& anchor) {
       return body_of(anchor.segment) == sweep_.body;
     };
     for (const HalfCover& half : {cover.lo, cover.hi}) {
@@ -276,13 +293,47 @@ class TileSearch {
     }
   }
 
-  // Chords of two convex cutters that overlap at all corners do so on all rays between.
-  [[nodiscard]] static bool overlap(const HalfCover& a, const HalfCover& b) {
+  // What a cutter where a segment begins covers of the corners.
+  struct Link {
+    std::uint32_t segment = 0;
+    std::array<Chord, 4> chords{};
+  };
+
+  // Whether cutters from the one to the other along the path link what both cover, on all rays of
+  // the tile. Those between are anchors then: groups left aside may hold them.
+  [[nodiscard]] bool are_linked(const RayTile& tile, const HalfCover& lo, const HalfCover& hi) {
+    if (overlap(lo.chords, hi.chords)) return true;
+    constexpr int kHalvings = 5;
+    const std::size_t before = anchors_.size();
+    const Link a{lo.anchor.segment, lo.chords}, b{hi.anchor.segment, hi.chords};
+    const bool own = body_of(a.segment) == sweep_.body && body_of(b.segment) == sweep_.body;
+    if (own && link(tile, *lo.anchor.part, lo.anchor.section, a, b, kHalvings)) return true;
+    anchors_.resize(before);
+    return false;
+  }
+  [[nodiscard]] bool link(const RayTile& tile, const Profile& part, std::uint32_t section,
+                          const Link& a, const Link& b, int halvings) {
+    if (overlap(a.chords, b.chords)) return true;
+    Link middle{(a.segment + b.segment) / 2};
+    if (halvings == 0 || middle.segment == a.segment || middle.segment == b.segment ||
+        body_of(middle.segment) != sweep_.body) {
+      return false;
+    }
+    const ToolPose& pose = question_.path->from(question_.path->segments[middle.segment]);
     for (std::size_t k = 0; k < 4; ++k) {
-      if (a.chords[k].lo > b.chords[k].hi - 4.0 * kInward ||
-          b.chords[k].lo > a.chords[k].hi - 4.0 * kInward) {
-        return false;
-      }
+      const auto chord = part.chord(pose, tile.corners[k]);
+      if (!chord) return false;
+      middle.chords[k] = *chord;
+    }
+    anchors_.push_back({&part, pose, middle.segment, section, 0.0});
+    return link(tile, part, section, a, middle, halvings - 1) &&
+           link(tile, part, section, middle, b, halvings - 1);
+  }
+
+  // Chords of two convex cutters that overlap at all corners do so on all rays between.
+  [[nodiscard]] static bool overlap(const std::array<Chord, 4>& a, const std::array<Chord, 4>& b) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (a[k].lo > b[k].hi - 4.0 * kInward || b[k].lo > a[k].hi - 4.0 * kInward) return false;
     }
     return true;
   }
@@ -294,7 +345,7 @@ class TileSearch {
     return most + normal.dot(group.middle.tip);
   }
 
-  [[nodiscard]] bool is_beside(const Tile& tile, const PoseGroup& group) const {
+  [[nodiscard]] bool is_beside(const RayTile& tile, const PoseGroup& group) const {
     const Vec3 d = tile.corners[0].direction;
     const Vec3 middle = 0.25 * (tile.corners[0].origin + tile.corners[1].origin +
                                 tile.corners[2].origin + tile.corners[3].origin);
@@ -322,41 +373,69 @@ class TileSearch {
     return away > 1e-3 && apart(radial / away);
   }
 
-  [[nodiscard]] Verdict judge(const Tile& tile, const PoseGroup& group) const {
-    if (group.earliest >= question_.first_excluded) return Verdict::aside;
-    if ((group.box.min.array() > tile.box.max.array()).any() ||
-        (group.box.max.array() < tile.box.min.array()).any()) {
-      return Verdict::aside;
+  [[nodiscard]] bool is_out_of_reach(const RayTile& tile, const GroupPair& groups,
+                                     std::size_t half) const {
+    if (groups.earliest[half] >= question_.first_excluded) return true;
+    for (std::size_t d = 0; d < 3; ++d) {
+      const auto k = static_cast<Eigen::Index>(d);
+      if (groups.box_min[d][half] > tile.box.max[k] || groups.box_max[d][half] < tile.box.min[k]) {
+        return true;
+      }
     }
-    bool is_level = false;
-    for (const Cover& c : covers_) {
-      const double lo = c.lo.is_beyond ? -kInfinity : height(group, c.lo.normal) - c.lo.least;
-      if (lo > kSurely) continue;
-      const double hi = c.hi.is_beyond ? -kInfinity : height(group, c.hi.normal) - c.hi.least;
-      if (hi > kSurely) continue;
-      if (lo < -1.5 * kSearchTolerance && hi < -1.5 * kSearchTolerance) return Verdict::aside;
-      is_level = true;
+    return false;
+  }
+
+  // Of the groups `from` to `to` of a pair.
+  [[nodiscard]] std::array<Verdict, 2> judge(const RayTile& tile, const GroupPair& groups,
+                                             std::size_t from, std::size_t to) const {
+    std::array<Verdict, 2> verdicts{Verdict::aside, Verdict::aside};
+    for (std::size_t half = from; half < to; ++half) {
+      if (!is_out_of_reach(tile, groups, half)) verdicts[half] = Verdict::open;
     }
-    if (is_beside(tile, group)) return Verdict::aside;
-    return is_level ? Verdict::level : Verdict::open;
+    for (const TileCover& c : covers_) {
+      if (verdicts[0] == Verdict::aside && verdicts[1] == Verdict::aside) return verdicts;
+      const Both lo = c.lo.is_beyond ? both(kInfinity) : c.lo.behind(groups);
+      const Both hi = c.hi.is_beyond ? both(kInfinity) : c.hi.behind(groups);
+      const Both least = smaller(lo, hi);
+      for (std::size_t half = 0; half < 2; ++half) {
+        if (verdicts[half] == Verdict::aside || !(least[half] >= -kSurely)) continue;
+        verdicts[half] = least[half] >= kFanMargin ? Verdict::aside : Verdict::level;
+      }
+    }
+    for (std::size_t half = 0; half < 2; ++half) {
+      if (verdicts[half] != Verdict::aside && is_beside(tile, groups.group(half)))
+        verdicts[half] = Verdict::aside;
+    }
+    return verdicts;
   }
 
   // Appends to lists_ what of it between first and last the tile leaves open. Groups that are much
   // larger than the tile are divided.
-  void filter(const Tile& tile, std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k) sift(tile, lists_[k]);
+  void filter(const RayTile& tile, std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k)
+      sift(tile, lists_[k] / 2, lists_[k] % 2, lists_[k] % 2 + 1);
     covers_.clear();
   }
+  // The groups `from` to `to` of a pair; false if nothing of them was left aside.
+  bool sift(const RayTile& tile, std::uint32_t pair, std::size_t from, std::size_t to) {
+    const GroupPair& groups = sweep_.tree.pairs()[pair];
+    const std::array<Verdict, 2> verdicts = judge(tile, groups, from, to);
+    bool any_aside = false;
+    for (std::size_t half = from; half < to; ++half) {
+      const bool left =
+          verdicts[half] == Verdict::aside ||
+          keep(tile, 2 * pair + static_cast<std::uint32_t>(half), verdicts[half] == Verdict::open);
+      any_aside = any_aside || left;
+    }
+    return any_aside;
+  }
   // False if nothing of it was left aside: then it stays whole.
-  bool sift(const Tile& tile, std::uint32_t index) {
-    const PoseGroup group = sweep_.tree.group(index);
-    const Verdict verdict = judge(tile, group);
-    if (verdict == Verdict::aside) return true;
+  bool keep(const RayTile& tile, std::uint32_t index, bool divides) {
+    const GroupPair& groups = sweep_.tree.pairs()[index / 2];
     const std::size_t before = lists_.size();
-    if (verdict == Verdict::open && group.count == 0 && group.shift > kCoarse * tile.size) {
-      const bool lower = sift(tile, group.children);
-      const bool upper = sift(tile, group.children + 1);
-      if (lower || upper) return true;
+    const double fine = covers_.empty() ? kCoarse : kFine;
+    if (divides && groups.count[index % 2] == 0 && groups.shift[index % 2] > fine * tile.size) {
+      if (sift(tile, groups.next[index % 2], 0, 2) || fans_follow_) return true;
       lists_.resize(before);
     }
     lists_.push_back(index);
@@ -369,8 +448,9 @@ class TileSearch {
   std::vector<std::uint8_t> done_;
   std::vector<std::uint32_t> lists_{};  // a stack: of each tile on the way down, what is open
   std::vector<std::uint32_t> hints_{};
-  std::vector<Cover> covers_{};
-  std::vector<Anchor> anchors_{};  // a stack too
+  std::vector<TileCover> covers_{};
+  bool fans_follow_ = false;
+  std::vector<TileAnchor> anchors_{};  // a stack too
 };
 
 }  // namespace

@@ -1,11 +1,11 @@
 // What the sweeps of one tool cover of parallel rays side by side, found together.
 //
 // Model    : the ray in the middle of a tile is searched; then groups that cover nothing more, on
-//            any ray of the tile, than the cutters at its ends do are left aside for all, and so
-//            are groups beside the tile. What is left is asked for the quarters of the tile, and so
-//            on down to single rays. What a convex cutter covers of parallel rays ends in a concave
-//            function over the tile, and a plane that bounds a group crosses them in a linear one:
-//            four corners prove it for all
+//            any ray of the tile, than the cutters at its ends do, and those that link these along
+//            the path, are left aside for all (tile_cover.hpp), and so are groups beside the tile.
+//            What is left is asked for the quarters of the tile, and so on down to single rays:
+//            each begins with the segments that made its neighbour's ends, climbed to its own, and
+//            leaves aside what the planes of a small tile hold back there (end_fan.hpp)
 // Units    : mm along the rays; frame: workpiece
 // Errors   : none
 // Accuracy : bit for bit that of extend_swept_interval() for each ray

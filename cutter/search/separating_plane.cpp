@@ -18,35 +18,54 @@ double axial_at(const Zone& zone, double height) {
   return std::clamp((height - zone.centre) / zone.radius, -1.0, 1.0);
 }
 
-// An edge all round the section, and between which normals planes touch it there.
-struct Rim {
+// A round face, or an edge all round the section, and between which normals planes touch it there.
+struct Round {
   Zone zone{};
   double least_axial = -1.0, most_axial = 1.0;
 };
 
-// The rim of a flat or conical face that the point is on, if it is.
-std::optional<Rim> rim_at(const Profile& section, const ToolPose& pose, const Vec3& point) {
-  constexpr double kOnRim = 1e-6;  // mm: an end is within 1e-9 along the ray, more along the face
-  const Vec3 m = point - pose.tip;
-  const double z = m.dot(pose.axis);
-  const double rho = (m - z * pose.axis).norm();
+Round round_face(const Zone& zone) {
+  return {zone, axial_at(zone, zone.z_lo), axial_at(zone, zone.z_hi)};
+}
+
+// The edge at the lower or upper end of a flat or conical zone, if it is not a point.
+std::optional<Round> rim_of(std::span<const Zone> zones, std::size_t i, bool upper) {
+  constexpr double kPoint = 1e-6;  // mm
+  const Zone& zone = zones[i];
+  const double height = upper ? zone.z_hi : zone.z_lo;
+  const double radius = zone.radius + zone.slope * (height - zone.z_lo);
+  if (radius <= kPoint) return std::nullopt;
+  const double own = axial_at(zone, height);
+  Round rim{torus_zone(radius, 0.0, height, height, height), own, own};
+  if (upper) {
+    rim.most_axial = i + 1 < zones.size() ? axial_at(zones[i + 1], height) : 1.0;
+  } else {
+    rim.least_axial = i > 0 ? axial_at(zones[i - 1], height) : -1.0;
+  }
+  return rim;
+}
+
+// Round faces as they are. At the flat ends, and near the edges of flanks, the edge: for the
+// cutters for which the point is beside the face its plane turns towards the next one.
+std::optional<Round> round_at(const Profile& section, const EndContact& end, const Vec3& point) {
   const auto zones = section.zones();
-  for (std::size_t i = 0; i < zones.size(); ++i) {
-    if (zones[i].kind != ZoneKind::cone) continue;
-    for (const bool upper : {false, true}) {
-      const double height = upper ? zones[i].z_hi : zones[i].z_lo;
-      const double radius = zones[i].radius + zones[i].slope * (height - zones[i].z_lo);
-      const bool is_on = std::abs(z - height) < kOnRim && std::abs(rho - radius) < kOnRim;
-      if (!is_on || radius <= kOnRim) continue;
-      const double own = axial_at(zones[i], height);
-      Rim rim{torus_zone(radius, 0.0, height, height, height), own, own};
-      if (upper) {
-        rim.most_axial = i + 1 < zones.size() ? axial_at(zones[i + 1], height) : 1.0;
-      } else {
-        rim.least_axial = i > 0 ? axial_at(zones[i - 1], height) : -1.0;
-      }
-      return rim;
-    }
+  const bool at_bottom = end.face == kBottomFace, at_top = end.face == kTopFace;
+  const std::size_t zone = at_bottom ? 0
+                           : at_top  ? zones.size() - 1
+                                     : static_cast<std::size_t>(end.face);
+  if (zones[zone].kind != ZoneKind::cone) {
+    const Round face = round_face(zones[zone]);
+    constexpr double kFlush = 1e-9;  // where a flat end goes on into the round face
+    const bool is_kink = (at_bottom && face.least_axial > -1.0 + kFlush) ||
+                         (at_top && face.most_axial < 1.0 - kFlush);
+    return is_kink ? std::nullopt : std::optional(face);
+  }
+  if (at_bottom || at_top) return rim_of(zones, zone, at_top);
+  const double near_by = 0.05 * section.max_radius();
+  const double z = (point - end.pose.tip).dot(end.pose.axis);
+  for (const bool upper : {false, true}) {
+    const double height = upper ? zones[zone].z_hi : zones[zone].z_lo;
+    if (std::abs(z - height) < near_by) return rim_of(zones, zone, upper);
   }
   return std::nullopt;
 }
@@ -59,21 +78,11 @@ SeparatingPlane::SeparatingPlane(const Body& body, const Ray& ray, const EndCont
   if (end.section == kConcaveSurface) return;
   const Profile& section = body.sections()[end.section];
   body_ = &body;
-  if (end.face >= 0) {
-    const Zone& zone = section.zones()[static_cast<std::size_t>(end.face)];
-    if (zone.kind != ZoneKind::cone) {
-      is_round_ = true;
-      round_ = zone;
-      least_axial_ = std::max(-1.0, (zone.z_lo - zone.centre) / zone.radius);
-      most_axial_ = std::min(1.0, (zone.z_hi - zone.centre) / zone.radius);
-      return;
-    }
-  }
-  if (const auto rim = rim_at(section, end.pose, end_)) {
+  if (const auto round = round_at(section, end, end_)) {
     is_round_ = true;
-    round_ = rim->zone;
-    least_axial_ = rim->least_axial;
-    most_axial_ = rim->most_axial;
+    round_ = round->zone;
+    least_axial_ = round->least_axial;
+    most_axial_ = round->most_axial;
     return;
   }
   const Facing facing = section.facing(end.face, end.pose, end_, beyond_);
@@ -81,6 +90,15 @@ SeparatingPlane::SeparatingPlane(const Body& body, const Ray& ray, const EndCont
   lateral_ = facing.lateral;
   offset_ = support(lateral_, axial_);
 }
+
+SeparatingPlane::SeparatingPlane(const Body& body, const Vec3& end, const Vec3& beyond,
+                                 const Latitude& latitude)
+    : body_(&body),
+      end_(end),
+      beyond_(beyond),
+      axial_(latitude.axial),
+      lateral_(latitude.lateral),
+      offset_(support(lateral_, axial_)) {}
 
 double SeparatingPlane::support(double lateral, double axial) const {
   double most = -std::numeric_limits<double>::infinity();
@@ -103,7 +121,13 @@ SeparatingPlane::Planes SeparatingPlane::touching(const BothVec& m, const BothVe
         round_.major < 0.0 ? rho - round_.major : larger(rho - round_.major, both(0.0));
     const Both above = z - round_.centre;
     const Both length = square_root(beside * beside + above * above);
-    const Both wanted = above / length;
+    // Towards the end; where the ray would come back to that plane, as much the other way.
+    const Both up = axis.dot(both(beyond_));
+    const Both out = (rho > kOnAxis ? 1.0 / rho : both(0.0)) * (m.dot(both(beyond_)) - z * up);
+    const Both along = smaller(beside * out + above * up, both(0.0));
+    const Both steep = out * out + up * up;
+    const Both back = steep > kOnAxis ? 2.0 * along / steep : both(0.0);
+    const Both wanted = (above - back * up) / length;
     at.axial = larger(smaller(wanted, both(most_axial_)), both(least_axial_));
     at.lateral = square_root(larger(1.0 - at.axial * at.axial, both(0.0)));
     offset = at.lateral * round_.major + at.axial * round_.centre + round_.radius;
@@ -140,8 +164,7 @@ Both SeparatingPlane::height_about(const BothVec& m, const BothVec& axis) const 
   return square_root(beside * beside + above * above) - round_.radius;
 }
 
-Overreach SeparatingPlane::overreach(const GroupPair& groups, double slack) const {
-  if (body_ == nullptr) return {};
+PairPlanes SeparatingPlane::planes(const GroupPair& groups) const {
   const BothVec axis = both(groups.axis);
   const BothVec one = both(groups.first_column), two = both(groups.second_column);
   const BothVec three = one.cross(two);
@@ -173,11 +196,17 @@ Overreach SeparatingPlane::overreach(const GroupPair& groups, double slack) cons
            magnitude(by_axis.dot(three)) * both(groups.axis_half[2]) + both(groups.tip_turn) +
            kColumns * went * turn;
   }
-  const Both fall = at.normal.dot(both(beyond_)) - turn;
+  return {at.normal, at.height, lost, turn, in_the_middle};
+}
+
+Overreach SeparatingPlane::overreach(const GroupPair& groups, double slack) const {
+  if (body_ == nullptr) return {};
+  const PairPlanes at = planes(groups);
+  const Both fall = at.normal.dot(both(beyond_)) - at.turn;
   const Both infinite = both(std::numeric_limits<double>::infinity());
   const Both height = at.height + slack;
   constexpr double kRounding = 1e-12;  // mm
-  return {fall > 0.0 ? (lost - height) / fall : infinite, in_the_middle, kRounding / fall};
+  return {fall > 0.0 ? (at.lost - height) / fall : infinite, at.in_the_middle, kRounding / fall};
 }
 
 double SeparatingPlane::along(const ToolPose& pose) const {

@@ -39,12 +39,36 @@ struct Overreach {
       both(0.0);  // of `most` (mm): what 1e-12 mm normal to the plane makes along the ray
 };
 
+// Planes that touch the cutters of two groups, each where it comes nearest to the end: none of any
+// pose of its group passes it, but for what it is lowered by. At a place that is y from the end the
+// plane is normal.y higher, and lowered by at most turn |y| more.
+struct PairPlanes {
+  BothVec normal{};                // out of the cutters; units
+  Both height = both(0.0);         // of the end over the plane that comes nearest (mm)
+  Both lost = both(0.0);           // over that of any pose it may be lower by so much
+  Both turn = both(0.0);           // no axis of the group is farther from the middle's
+  Both in_the_middle = both(0.0);  // about the height over the plane of a cutter there
+};
+
 class SeparatingPlane {
  public:
   // Holds nothing back: for ends that no convex section makes.
   SeparatingPlane() = default;
   // `leaving`: what is covered is before the end, else after it.
   SeparatingPlane(const Body& body, const Ray& ray, const EndContact& end, bool leaving);
+  // The plane of a latitude, whatever made the end: (lateral, axial) is a unit normal in a
+  // meridian of the body.
+  struct Latitude {
+    double axial = 0.0, lateral = 1.0;
+  };
+  SeparatingPlane(const Body& body, const Vec3& end, const Vec3& beyond, const Latitude& latitude);
+
+  [[nodiscard]] bool has_proof() const { return body_ != nullptr; }
+  [[nodiscard]] const Vec3& end() const { return end_; }
+  // Unit, along the ray, away from what is covered.
+  [[nodiscard]] const Vec3& beyond() const { return beyond_; }
+  // Precondition: has_proof().
+  [[nodiscard]] PairPlanes planes(const GroupPair& groups) const;
 
   // `slack`: so much beyond the plane, normal to it, does not count (mm). Negative: the proof is
   // that the cutter stays so much before the end.
@@ -81,9 +105,9 @@ class SeparatingPlane {
 
   const Body* body_ = nullptr;  // null: no proof
   Vec3 end_ = Vec3::Zero();
-  Vec3 beyond_ = Vec3::Zero();  // unit, along the ray, away from what is covered
-  // Latitude of the plane: fixed on flat, cylindrical and conical faces, on round ones towards the
-  // end, but on the face.
+  Vec3 beyond_ = Vec3::Zero();
+  // Latitude of the plane: fixed on flanks, on round faces and at edges towards the end, but
+  // between the normals that they have.
   double axial_ = 0.0, lateral_ = 0.0, offset_ = 0.0;
   bool is_round_ = false;
   Zone round_{};  // a rim is a torus of no minor radius

@@ -21,6 +21,8 @@ using kinematics::PathSegment;
 using kinematics::ToolPath;
 
 constexpr double kPassedOver = 1e-9;  // mm
+// Of the radius of a ball: ends nearer to each other share what holds groups back.
+constexpr double kFanned = 0.2;
 
 // Least distance between a point and the body moving through it, or `least` if that is less; at
 // most kCoarse too small. No point of the body is faster than the motion says.
@@ -82,22 +84,21 @@ class NearGroups {
              std::uint32_t first_excluded, std::vector<std::uint32_t>& found)
       : path_(path), sweep_(sweep), ball_(ball), first_excluded_(first_excluded), found_(found) {}
 
-  // False if nothing of it was left aside: then it stays whole.
-  bool add(std::uint32_t index) {
+  void add(std::uint32_t index) {
     const PoseGroup group = sweep_.tree.group(index);
-    if (is_away(group)) return true;
-    const std::size_t before = found_.size();
-    if (group.count == 0 && group.shift > 0.5 * ball_.radius) {
-      const bool lower = add(group.children);
-      const bool upper = add(group.children + 1);
-      if (lower || upper) return true;
-      found_.resize(before);
+    if (is_away(group)) return;
+    if (group.count > 0 || group.shift <= kCoarsest * ball_.radius) {
+      found_.push_back(index);
+      return;
     }
-    found_.push_back(index);
-    return false;
+    add(group.children);
+    add(group.children + 1);
   }
 
  private:
+  // Of the radius of the ball: larger groups are divided.
+  static constexpr double kCoarsest = 0.5;
+
   [[nodiscard]] bool is_away(const PoseGroup& group) const {
     if (group.earliest >= first_excluded_) return true;
     const Vec3 beyond = (group.box.min - ball_.centre)
@@ -219,7 +220,9 @@ std::optional<SweepContact> SweptCutter::end_of_void(const Ray& ray, double from
       const auto segment = static_cast<std::uint32_t>(tag);
       if (&body_of(segment) == sweep.body) first[count++] = segment;
     }
-    if (advance_front(question, sweep, kPassedOver, groups, std::span(first).first(count), front)) {
+    EndFans* fans = likely.near != nullptr ? &likely.near->fans[tool] : nullptr;
+    if (advance_front(question, sweep, kPassedOver, groups, std::span(first).first(count), fans,
+                      front)) {
       moved = true;
       still = 1;
     }
@@ -234,8 +237,9 @@ bool SweptNear::empty() const {
 
 SweptNear SweptCutter::near(const Vec3& centre, double radius, std::uint32_t first_excluded,
                             const SweptNear* within) const {
-  SweptNear near{centre, radius, {}};
+  SweptNear near{.centre = centre, .radius = radius};
   near.groups.resize(sweeps_->size());
+  near.fans.assign(sweeps_->size(), EndFans(kFanned * radius));
   constexpr std::uint32_t kRoot = 0;
   for (std::size_t tool = 0; tool < sweeps_->size(); ++tool) {
     const ToolSweep& sweep = (*sweeps_)[tool];
@@ -278,6 +282,11 @@ SweepContact SweptCutter::contact(const Ray& ray, double s, std::uint32_t segmen
   constexpr double kSameEnd = 1e-6;  // mm
   SweptIntervalEnd end{.s = s, .segment = segment};
   double nearest = std::numeric_limits<double>::infinity();
+  if (body.is_convex()) {
+    const auto only = swept_end_at(body.sections().front(), motion, ray, s);
+    if (only && std::abs(only->s - s) <= kSameEnd)
+      return contact_of(ray, {s, segment, 0, only->t, only->face});
+  }
   const ConcaveSweep concave(body, motion, ray);
   for (std::uint32_t section = 0; section < body.sections().size(); ++section) {
     for (const SegmentInterval& i : swept_intervals(body.sections()[section], motion, ray)) {

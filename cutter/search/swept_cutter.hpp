@@ -29,11 +29,13 @@
 
 namespace frustum::cutter {
 
-// What may cover anything in a ball: groups of the trees of poses, by tool.
+// What may cover anything in a ball: groups of the trees of poses, by tool; and what the ends of
+// rays there have shown of them, which is added to as rays are asked.
 struct SweptNear {
   Vec3 centre = Vec3::Zero();
   double radius = 0.0;  // mm
   std::vector<std::vector<std::uint32_t>> groups{};
+  std::vector<EndFans> fans{};
 
   [[nodiscard]] bool holds(const Vec3& point) const {
     return (point - centre).squaredNorm() <= radius * radius;
@@ -65,10 +67,10 @@ class SweptCutter {
   [[nodiscard]] std::optional<SweepContact> end_of_void(const Ray& ray, double from, double to,
                                                         std::uint32_t first_excluded = kAll) const;
   // The same, begun with what is likely to make the end. `near`: what near() found for a ball that
-  // holds the ray from `from` to `to`.
+  // holds the ray from `from` to `to`; of one thread at a time.
   struct Likely {
     std::span<const EndTag> segments{};  // negative ones say nothing
-    const SweptNear* near = nullptr;
+    SweptNear* near = nullptr;
   };
   [[nodiscard]] std::optional<SweepContact> end_of_void(const Ray& ray, double from, double to,
                                                         const Likely& likely,

@@ -62,6 +62,15 @@ std::optional<std::uint32_t> WholeSweep::unsolved() const {
   return std::nullopt;
 }
 
+std::optional<double> WholeSweep::end_at_pose_of(std::uint32_t segment) const {
+  for (const Piece& c : pieces_) {
+    for (const SweptIntervalEnd& end : {c.lo.at, c.hi.at}) {
+      if (end.segment == segment && (end.t == 0.0 || end.t == 1.0)) return end.t;
+    }
+  }
+  return std::nullopt;
+}
+
 void WholeSweep::settle(std::uint32_t segment) {
   for (Piece& c : pieces_) {
     for (End* end : {&c.lo, &c.hi}) end->solved = end->solved || end->at.segment == segment;
@@ -113,11 +122,13 @@ const SeparatingPlane& WholeSweep::plane_at(End& end, bool leaving) const {
 
 WholeSweep::Held WholeSweep::held_by(End& end, const GroupPair& groups, bool leaving) const {
   const Overreach over = plane_at(end, leaving).overreach(groups, 0.0);
-  Held held{};
+  Held held;
   for (std::size_t half = 0; half < 2; ++half) {
-    held[half] = over.most[half] < kInfinity && behind(depth_of(end.at, leaving) + over.most[half] +
-                                                           kBoundRounding + over.rounding[half],
-                                                       groups.earliest[half], end, leaving);
+    held.bounds[half] = over.most[half] < kInfinity;
+    held.is_beyond[half] = over.height[half] < 0.0;
+    held.holds[half] = held.bounds[half] && behind(depth_of(end.at, leaving) + over.most[half] +
+                                                       kBoundRounding + over.rounding[half],
+                                                   groups.earliest[half], end, leaving);
   }
   return held;
 }
@@ -137,19 +148,27 @@ bool WholeSweep::held_by(End& end, std::uint32_t segment, const ToolPose& from, 
   return plane.holds(from, to, -1.01 * kSearchTolerance);
 }
 
-PairLimit WholeSweep::limit(const GroupPair& groups) {
-  Held all{};
+PairLimit WholeSweep::limit(const GroupPair& groups, const PairSpan& in_box) {
+  PairLimit limits{};
   for (Piece& c : pieces_) {
-    Held by{true, true};
-    if (c.hi.at.s < span().hi) by = held_by(c.hi, groups, true);
-    if ((by[0] || by[1]) && c.lo.at.s > span().lo) {
-      const Held by_lo = held_by(c.lo, groups, false);
-      by = {by[0] && by_lo[0], by[1] && by_lo[1]};
+    // What is elsewhere on the ray may be held back as well, but rarely is.
+    const bool is_there = (in_box.lo[0] <= c.hi.at.s && in_box.hi[0] >= c.lo.at.s) ||
+                          (in_box.lo[1] <= c.hi.at.s && in_box.hi[1] >= c.lo.at.s);
+    if (!is_there) continue;
+    Held hi, lo;
+    if (c.hi.at.s < span().hi) hi = held_by(c.hi, groups, true);
+    if (c.lo.at.s > span().lo) lo = held_by(c.lo, groups, false);
+    for (std::size_t half = 0; half < 2; ++half) {
+      GroupLimit& limit = limits[half];
+      limit.holds = limit.holds || (hi.holds[half] && lo.holds[half]);
+      if (!hi.bounds[half] || !lo.bounds[half]) continue;
+      // It is beside this piece: what its representative covers says little more.
+      limit.hi = span().hi;
+      limit.counts_representative = hi.is_beyond[half] || lo.is_beyond[half];
     }
-    all = {all[0] || by[0], all[1] || by[1]};
-    if (all[0] && all[1]) break;
+    if (limits[0].holds && limits[1].holds) break;
   }
-  return {GroupLimit{.holds = all[0]}, GroupLimit{.holds = all[1]}};
+  return limits;
 }
 
 double WholeSweep::room(std::uint32_t segment, const ToolPose& from, const ToolPose& to) {
@@ -163,6 +182,17 @@ double WholeSweep::room(std::uint32_t segment, const ToolPose& from, const ToolP
 std::span<const Chord> WholeSweep::known() {
   known_.clear();
   for (const Piece& c : pieces_) known_.push_back({c.lo.at.s, c.hi.at.s});
+  return known_;
+}
+
+std::span<const Chord> WholeSweep::floors() {
+  // Many times what a search tolerates (kSearchTolerance).
+  constexpr double kWellInside = 1e-8;  // mm
+  known_.clear();
+  for (const Piece& c : pieces_) {
+    const Chord inside{c.lo.at.s + kWellInside, c.hi.at.s - kWellInside};
+    if (inside.lo < inside.hi) known_.push_back(inside);
+  }
   return known_;
 }
 

@@ -45,6 +45,9 @@ class WholeSweep {
   // A segment that has an end within the span but was not solved yet.
   [[nodiscard]] std::optional<std::uint32_t> unsolved() const;
 
+  // When the segment makes an end of what is covered, that being at one of its poses: 0 or 1.
+  [[nodiscard]] std::optional<double> end_at_pose_of(std::uint32_t segment) const;
+
   // That segment was solved: its ends are what they are.
   void settle(std::uint32_t segment);
 
@@ -57,11 +60,12 @@ class WholeSweep {
   [[nodiscard]] static RaySpan counted(const GroupReach& reach);
   [[nodiscard]] bool wants(std::uint32_t group, const RaySpan& counted) const;
   [[nodiscard]] bool wants_piece(std::uint32_t group, double lo, double hi) const;
-  [[nodiscard]] PairLimit limit(const GroupPair& groups);
+  [[nodiscard]] PairLimit limit(const GroupPair& groups, const PairSpan& in_box);
   [[nodiscard]] double room(std::uint32_t segment, const ToolPose& from, const ToolPose& to);
   [[nodiscard]] std::span<const Chord> known();
-  // Solutions do not depend on what is covered already.
-  [[nodiscard]] static std::span<const Chord> floors() { return {}; }
+  // Solutions of ends that may count do not depend on what is covered already: an end is left
+  // inexact only where it is well inside.
+  [[nodiscard]] std::span<const Chord> floors();
   void take(const SweptInterval& next);
   void take_solved(const SweptInterval& next) { join(next, true); }
 
@@ -79,8 +83,11 @@ class WholeSweep {
   [[nodiscard]] static bool wins(const End& a, const End& b, bool leaving);
   [[nodiscard]] static bool behind(double depth, std::uint32_t earliest, const End& end,
                                    bool leaving);
-  // Whether each of two groups is, and a segment between two poses.
-  using Held = std::array<bool, 2>;
+  // What an end says of two groups: that they are held back; that they are not ahead of it, and
+  // then whether a cutter in the middle likely covers more.
+  struct Held {
+    std::array<bool, 2> holds{true, true}, bounds{true, true}, is_beyond{false, false};
+  };
   [[nodiscard]] Held held_by(End& end, const GroupPair& groups, bool leaving) const;
   [[nodiscard]] bool held_by(End& end, std::uint32_t segment, const ToolPose& from,
                              const ToolPose& to, bool leaving) const;

@@ -69,9 +69,9 @@ class Roof {
 
   // Smooth tops: where the slopes, taken as linear, pass zero. Edges: where the lines meet. Beside
   // a top that is found already: so near that from there on the fall is surely more than the bulge.
-  [[nodiscard]] double place_to_look(int depth) const {
+  [[nodiscard]] double place_to_look(int depth, bool has_edge) const {
     if (!holds_ || depth % 4 == 3) return 0.5;
-    if (has_ridge_ && depth % 4 == 2) return ridge_;
+    if (has_ridge_ && (depth % 4 == 2) != has_edge) return ridge_;
     const bool rises = rise_a_ > 0.0, falls = rise_b_ < 0.0;
     if (!rises && !falls) return 0.5;
     const double smooth = rises && falls ? rise_a_ / (rise_a_ - rise_b_) : (rises ? 1.0 : 0.0);
@@ -174,7 +174,8 @@ class HighestEnd {
       climb(a.t, b.t);
       return;
     }
-    if (depth == 0) {
+    const bool has_edge = is_edge_between(a, b);
+    if (depth == 0 && !has_edge) {
       if (const auto top = summit_between(a, b, 0.25 * kSearchTolerance)) {
         close_in(a, *top, 1);
         close_in(*top, b, 1);
@@ -183,7 +184,7 @@ class HighestEnd {
       if (gap_) return;
     }
     if (++looks_ > kMostLooks) return;
-    const double x = roof.place_to_look(depth);
+    const double x = roof.place_to_look(depth, has_edge);
     const double t = a.t + std::clamp(x, 1e-3, 1.0 - 1e-3) * dt;
     const ChordSample middle = sample_at(t);
     if (!middle.chord) {
@@ -194,6 +195,12 @@ class HighestEnd {
     note(m);
     close_in(a, m, depth + 1);
     close_in(m, b, depth + 1);
+  }
+
+  // The ray leaves by two faces that make an edge.
+  [[nodiscard]] static bool is_edge_between(const Touched& a, const Touched& b) {
+    constexpr double kSharp = 0.2;  // of the normals' axial parts
+    return a.face != b.face && std::abs(a.plane.axial - b.plane.axial) > kSharp;
   }
 
   // How fast the end of the chord moves there, counted upwards: the envelope condition where 0.
@@ -264,8 +271,10 @@ class HighestEnd {
     const double best = std::max(best_value_, floor_);
     if (std::isinf(best)) return false;
     const Vec3 point = ray_.at(leaving_ ? best : -best);
-    const double from_a = height_holds(a, b.pose, point), from_b = height_holds(b, a.pose, point);
-    return from_a > 0.0 && from_b > 0.0 && from_a + from_b >= 1.0;
+    const double from_a = height_holds(a, b.pose, point);
+    if (!(from_a > 0.0)) return false;
+    const double from_b = height_holds(b, a.pose, point);
+    return from_b > 0.0 && from_a + from_b >= 1.0;
   }
 
   // From a sample towards a pose: for what share of the way the point is surely not below the plane
@@ -399,6 +408,20 @@ void append_swept_intervals(const Profile& body, const SegmentMotion& motion, co
     found.push_back({lo.best(), hi.best()});
     i = next;
   }
+}
+
+std::optional<SweptEnd> swept_end_at(const Profile& body, const SegmentMotion& motion,
+                                     const Ray& ray, double s) {
+  constexpr double kNear = 1e-6;  // mm, above rounding
+  const auto ends = ends_that_overlap(body, motion, ray);
+  if (!ends) return std::nullopt;
+  const bool leaving = s > std::max(ends->from.chord->hi, ends->to.chord->hi) - kNear;
+  const bool entering = s < std::min(ends->from.chord->lo, ends->to.chord->lo) + kNear;
+  if (leaving == entering) return std::nullopt;
+  HighestEnd end(body, motion, ray, leaving, -kInfinity);
+  end.search(ends->from, ends->to);
+  if (end.gap()) return std::nullopt;
+  return end.best();
 }
 
 std::optional<LastExit> last_exit(const Profile& body, const SegmentMotion& motion,

@@ -49,6 +49,11 @@ void append_swept_intervals(const Profile& body, const SegmentMotion& motion, co
                                                            const SegmentMotion& motion,
                                                            const Ray& ray);
 
+// The end of what is swept at s, of those that swept_intervals() finds; nothing where it is not
+// plain that it is the first or the last. Faster than all of them.
+[[nodiscard]] std::optional<SweptEnd> swept_end_at(const Profile& body, const SegmentMotion& motion,
+                                                   const Ray& ray, double s);
+
 // Sorts them and unites those that overlap: rays that graze make many pieces of one.
 void join_overlapping(std::vector<SegmentInterval>& pieces);
 

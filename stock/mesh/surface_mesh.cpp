@@ -29,7 +29,7 @@ constexpr double kTooClose = 0.05;
 // Cells of a block, in each direction, whose rays share what may have cut there; first of a large
 // one, then of a small one in it.
 constexpr int kBlock = 8;
-constexpr int kSmallBlock = 2;
+constexpr int kSmallBlock = 4;
 // From a cell to where the rays of its vertex end, in pitches.
 constexpr double kAround = kLeaveCell + 0.5;
 
@@ -39,7 +39,7 @@ class Neighbourhood {
   Neighbourhood(SolidView solid, const DexelGrid& grid) : solid_(solid), grid_(grid) {}
 
   // Around a cell; null: the solid does not know.
-  [[nodiscard]] const cutter::SweptNear* of(const std::array<int, 3>& cell) {
+  [[nodiscard]] cutter::SweptNear* of(const std::array<int, 3>& cell) {
     return around(cell, kSmallBlock, around(cell, kBlock, nullptr));
   }
 
@@ -47,8 +47,8 @@ class Neighbourhood {
   using Known = std::map<std::array<int, 4>, std::optional<cutter::SweptNear>>;
 
   // The block of this size that holds the cell.
-  const cutter::SweptNear* around(const std::array<int, 3>& cell, int size,
-                                  const cutter::SweptNear* within) {
+  cutter::SweptNear* around(const std::array<int, 3>& cell, int size,
+                            const cutter::SweptNear* within) {
     std::array<int, 4> key{0, 0, 0, size};
     for (std::size_t d = 0; d < 3; ++d) key[d] = cell[d] - ((cell[d] % size) + size) % size;
     auto found = known_.find(key);
@@ -87,7 +87,7 @@ class VertexPlacer {
         for (int i = i0; i < std::min(i0 + kBlock, across_x); ++i) {
           for (const Cell& cell : cells_.column(i, j)) {
             const std::array<int, 3> place{i, j, cell.level};
-            const cutter::SweptNear* near = around.of(place);
+            cutter::SweptNear* near = around.of(place);
             for (std::uint32_t piece = 0; piece < cell.piece_count; ++piece) {
               place_piece(place, cell, piece, kLeaveCell, near);
               if (cell_of(mesh_.vertices[cell.first_vertex + piece]) != place) {
@@ -120,7 +120,7 @@ class VertexPlacer {
   }
 
   void place_piece(const std::array<int, 3>& place, const Cell& cell, std::uint32_t piece,
-                   double leave, const cutter::SweptNear* near) {
+                   double leave, cutter::SweptNear* near) {
     const DexelGrid& grid = crossings_.grid();
     const auto [i, j, k] = place;
     std::array<HermiteSample, 12> samples;

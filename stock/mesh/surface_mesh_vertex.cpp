@@ -96,7 +96,7 @@ Vec3 meet(Samples samples, const BoundingBox& allowed) {
 // The samples again, but closer to the vertex; a sample keeps its place if the surface found there
 // belongs to another face.
 void draw_closer(SolidView solid, std::span<HermiteSample> samples, const Vec3& vertex,
-                 double reach, const cutter::SweptNear* near) {
+                 double reach, cutter::SweptNear* near) {
   for (HermiteSample& sample : samples) {
     const Vec3 at = vertex + kCloser * (sample.point - vertex);
     const auto found = nearest_surface(solid, at, sample.normal, reach, {{&sample.tag, 1}, near});
@@ -112,8 +112,18 @@ struct Answer {
   bool settled = false;                // it is where, and as, the samples say
 };
 
-// What made the sample that is next to a point.
-EndTag nearest_tag(Samples samples, const Vec3& point) {
+// What likely makes the surface at a point: between samples of one pass of a cutter, half way along
+// its path if that is their mean; else what made the nearest.
+EndTag likely_tag(Samples samples, const Vec3& point, bool is_mean) {
+  constexpr EndTag kOnePass = 64;
+  EndTag first = samples.front().tag, last = first, sum = 0;
+  for (const HermiteSample& sample : samples) {
+    first = std::min(first, sample.tag);
+    last = std::max(last, sample.tag);
+    sum += sample.tag;
+  }
+  const auto count = static_cast<EndTag>(samples.size());
+  if (is_mean && first >= 0 && last - first <= kOnePass) return (2 * sum + count) / (2 * count);
   const auto nearest = std::ranges::min_element(samples, {}, [&](const HermiteSample& sample) {
     return (sample.point - point).squaredNorm();
   });
@@ -121,12 +131,13 @@ EndTag nearest_tag(Samples samples, const Vec3& point) {
 }
 
 Answer solve(SolidView solid, std::span<HermiteSample> samples, const BoundingBox& allowed,
-             double pitch, const cutter::SweptNear* near) {
+             double pitch, cutter::SweptNear* near) {
   Vec3 vertex = mean_point(samples);
-  bool smooth = is_smooth(samples);
+  bool smooth = is_smooth(samples), has_met = false;
   for (int round = 0; round < kRounds && !smooth; ++round) {
     const Vec3 before = vertex;
     vertex = meet(samples, allowed);
+    has_met = true;
     // Flat faces meet where they met before, within rounding; nothing more to learn.
     if (round > 0 && (vertex - before).norm() < 1e-12 * pitch) break;
     draw_closer(solid, samples, vertex, kReach * pitch, near);
@@ -138,7 +149,7 @@ Answer solve(SolidView solid, std::span<HermiteSample> samples, const BoundingBo
     answer.placed.normal = samples.front().normal;
     return answer;
   }
-  const EndTag tag = nearest_tag(samples, vertex);
+  const EndTag tag = likely_tag(samples, vertex, smooth && !has_met);
   answer.found =
       nearest_surface(solid, vertex, answer.placed.normal, 2.0 * kReach * pitch, {{&tag, 1}, near});
   if (!answer.found || !contains(allowed, answer.found->point)) return answer;
@@ -182,7 +193,7 @@ std::optional<HermiteSample> nearest_surface(SolidView solid, const Vec3& point,
 }
 
 PlacedVertex place_vertex(SolidView solid, std::span<const HermiteSample> samples,
-                          const BoundingBox& cell, double leave, const cutter::SweptNear* near) {
+                          const BoundingBox& cell, double leave, cutter::SweptNear* near) {
   const double pitch = cell.max.x() - cell.min.x();
   const Vec3 spare = Vec3::Constant(leave * pitch);
   const BoundingBox allowed{cell.min - spare, cell.max + spare};

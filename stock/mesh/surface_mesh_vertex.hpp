@@ -34,7 +34,7 @@ struct PlacedVertex {
 // `near`: what may have cut around the cell, if that is known. Rays that leave its ball do without.
 [[nodiscard]] PlacedVertex place_vertex(SolidView solid, std::span<const HermiteSample> samples,
                                         const BoundingBox& cell, double leave,
-                                        const cutter::SweptNear* near = nullptr);
+                                        cutter::SweptNear* near = nullptr);
 
 // The surface that faces along `normal` (unit), at most `reach` away along it: the first that a
 // probe meets which comes from outside, or, if that is another face, the one next to `point`.

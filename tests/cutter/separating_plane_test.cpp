@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "cutter/search/end_fan.hpp"
 #include "cutter/search/pose_tree.hpp"
 #include "tests/cutter/cutter_kinds.hpp"
 #include "tests/cutter/random_paths.hpp"
@@ -97,6 +98,52 @@ TEST(EndGuardLaws, NothingIsCoveredBeyondWhatAGuardAllows) {
   EXPECT_GT(bounded, 500);
   EXPECT_GT(held, 100);
   EXPECT_GT(strokes_held, 300);
+}
+
+// Fans of planes at the end of one ray, at the ends of rays beside it, of which some are parallel.
+TEST(EndFanLaws, NothingIsCoveredBeyondAnEndThatAFanHoldsBack) {
+  int held = 0, open = 0;
+  for (const proof::Kind& kind : proof::cutter_kinds()) {
+    const Body& body = kind.cutter.body();
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+      Draw draw(seed);
+      const ToolPath path = swaying(draw, 48);
+      std::vector<std::uint32_t> all(path.segments.size());
+      std::iota(all.begin(), all.end(), 0U);
+      const PoseTree tree(path, all, body);
+      std::vector<std::uint32_t> groups(2 * tree.pairs().size());
+      std::iota(groups.begin(), groups.end(), 0U);
+      groups.erase(groups.begin() + 1);  // beside the root there is none
+      const ToolPose& stands = path.poses[static_cast<std::size_t>(draw.below(49))];
+      const Ray ray{stands.tip + draw.between(0.1, 0.9) * body.height() * stands.axis,
+                    draw.direction()};
+      const Profile& part = body.parts().front();
+      const auto chord = part.chord(stands, ray);
+      if (!chord) continue;
+      const SeparatingPlane plane(body, ray, {chord->hi, 0, chord->hi_face, stands}, true);
+      const EndFan fan(plane, tree.pairs(), groups);
+      for (int beside = 0; beside < 8; ++beside) {
+        const Vec3 place = ray.at(chord->hi) + draw.decades(1e-3, 3.0) * draw.direction();
+        const Vec3 direction =
+            beside < 4 ? ray.direction : (ray.direction + 0.5 * draw.direction()).normalized();
+        const EndFan::Beside at = fan.beside(place, direction);
+        for (std::size_t i = 0; i < groups.size(); ++i) {
+          if (!fan.holds(i, at)) {
+            ++open;
+            continue;
+          }
+          ++held;
+          for (const std::uint32_t segment : segments_under(tree, groups[i])) {
+            const SegmentMotion motion(path, path.segments[segment], body.reach());
+            EXPECT_LE(farthest(body, motion, {place, direction}), -0.5 * kFanMargin)
+                << kind.name << ' ' << seed << " group " << groups[i];
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(held, 1000);
+  EXPECT_GT(open, 1000);
 }
 
 }  // namespace
