@@ -93,8 +93,10 @@ py::tuple motion(const std::string& file, const py::object& errors,
   {
     const py::gil_scoped_release released;
     auto test = required(app::read_test_file(file));
-    app::common_words(test).errors = words;
-    const auto answer = required(app::answer_of(test));
+    app::common_words(test.words).errors = words;
+    auto answered = app::answer_of(test.words);
+    if (!answered) throw Refused(app::in_test_file(test, answered.error()));
+    const auto answer = *std::move(answered);
     document = answer.document.json();
     for (const Diagnostic& each : answer.warnings) warnings.push_back(to_string(each));
   }

@@ -73,22 +73,16 @@ std::optional<VolumetricTarget> read_volumetric(const TomlTable& root) {
 
 // The machine of the test, without the errors of the file: those of the study are drawn.
 Result<MotionTarget> load_motion(const fs::path& file) {
-  auto words = read_test_file(file);
-  if (!words) return words.error();
-  MotionWords& common = common_words(*words);
+  auto read = read_test_file(file);
+  if (!read) return read.error();
+  MotionWords& common = common_words(read->words);
   MotionTarget target{.file = file, .machine_file = common.machine, .errors = common.of_file};
   common.of_file = {};
   auto setup = motion_setup(common);
-  if (!setup) return setup.error();
+  if (!setup) return in_test_file(*read, setup.error());
   target.setup = std::make_shared<const MotionSetup>(*std::move(setup));
-  auto test = drawn_test(*words, *target.setup);
-  if (!test) {
-    Diagnostics problems = test.error();
-    for (Diagnostic& each : problems) {
-      if (each.file.empty()) each.file = file.string();
-    }
-    return problems;
-  }
+  auto test = drawn_test(read->words, *target.setup);
+  if (!test) return in_test_file(*read, test.error());
   target.test = *std::move(test);
   return target;
 }
