@@ -69,9 +69,9 @@ class Roof {
 
   // Smooth tops: where the slopes, taken as linear, pass zero. Edges: where the lines meet. Beside
   // a top that is found already: so near that from there on the fall is surely more than the bulge.
-  [[nodiscard]] double place_to_look(int depth, bool has_edge) const {
+  [[nodiscard]] double place_to_look(int depth) const {
     if (!holds_ || depth % 4 == 3) return 0.5;
-    if (has_ridge_ && (depth % 4 == 2) != has_edge) return ridge_;
+    if (has_ridge_ && depth % 4 == 2) return ridge_;
     const bool rises = rise_a_ > 0.0, falls = rise_b_ < 0.0;
     if (!rises && !falls) return 0.5;
     const double smooth = rises && falls ? rise_a_ / (rise_a_ - rise_b_) : (rises ? 1.0 : 0.0);
@@ -174,8 +174,7 @@ class HighestEnd {
       climb(a.t, b.t);
       return;
     }
-    const bool has_edge = is_edge_between(a, b);
-    if (depth == 0 && !has_edge) {
+    if (depth == 0) {
       if (const auto top = summit_between(a, b, 0.25 * kSearchTolerance)) {
         close_in(a, *top, 1);
         close_in(*top, b, 1);
@@ -184,7 +183,7 @@ class HighestEnd {
       if (gap_) return;
     }
     if (++looks_ > kMostLooks) return;
-    const double x = roof.place_to_look(depth, has_edge);
+    const double x = roof.place_to_look(depth);
     const double t = a.t + std::clamp(x, 1e-3, 1.0 - 1e-3) * dt;
     const ChordSample middle = sample_at(t);
     if (!middle.chord) {
@@ -195,12 +194,6 @@ class HighestEnd {
     note(m);
     close_in(a, m, depth + 1);
     close_in(m, b, depth + 1);
-  }
-
-  // The ray leaves by two faces that make an edge.
-  [[nodiscard]] static bool is_edge_between(const Touched& a, const Touched& b) {
-    constexpr double kSharp = 0.2;  // of the normals' axial parts
-    return a.face != b.face && std::abs(a.plane.axial - b.plane.axial) > kSharp;
   }
 
   // How fast the end of the chord moves there, counted upwards: the envelope condition where 0.
