@@ -6,11 +6,15 @@
 namespace frustum::instruments {
 namespace {
 
-Result<RunValues> run_values(const CircleTrace& trace) {
+Result<double> zone_of(const PolarSamples& samples, MinimumZones zones) {
+  return zones == MinimumZones::evaluated ? minimum_zone(samples) : 0.0;
+}
+
+Result<RunValues> run_values(const CircleTrace& trace, MinimumZones zones) {
   const PolarSamples samples{trace.angle, trace.deviation};
   const auto circle = least_squares_circle(samples);
   if (!circle) return circle.error();
-  const auto zone = minimum_zone(samples);
+  const auto zone = zone_of(samples, zones);
   if (!zone) return zone.error();
   const PolarRange about_nominal = range_about(samples, {0.0, circle->x, circle->y});
   return RunValues{
@@ -20,11 +24,11 @@ Result<RunValues> run_values(const CircleTrace& trace) {
 
 }  // namespace
 
-Result<CircleValues> circle_values(std::span<const CircleTrace> traces) {
+Result<CircleValues> circle_values(std::span<const CircleTrace> traces, MinimumZones zones) {
   CircleValues values;
   std::vector<double> angle, deviation;
   for (const CircleTrace& trace : traces) {
-    auto run = run_values(trace);
+    auto run = run_values(trace, zones);
     if (!run) return run.error();
     (trace.sense == Sense::ccw ? values.ccw : values.cw) = *std::move(run);
     angle.insert(angle.end(), trace.angle.begin(), trace.angle.end());
@@ -33,7 +37,7 @@ Result<CircleValues> circle_values(std::span<const CircleTrace> traces) {
   const PolarSamples both{angle, deviation};
   const auto circle = least_squares_circle(both);
   if (!circle) return circle.error();
-  const auto zone = minimum_zone(both);
+  const auto zone = zone_of(both, zones);
   if (!zone) return zone.error();
   values.both = *circle;
   values.g_bi_least_squares = range_about(both, *circle).width();

@@ -36,6 +36,9 @@ struct CircleValues {
   double d_mean_radial = 0.0;
 };
 
-[[nodiscard]] Result<CircleValues> circle_values(std::span<const CircleTrace> traces);
+// Minimum zones take most of the time: whoever asks for none has 0 in their place.
+enum class MinimumZones { evaluated, left_out };
+[[nodiscard]] Result<CircleValues> circle_values(std::span<const CircleTrace> traces,
+                                                 MinimumZones zones = MinimumZones::evaluated);
 
 }  // namespace frustum::instruments

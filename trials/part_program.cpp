@@ -173,18 +173,8 @@ Result<std::vector<double>> read_part_log(const std::filesystem::path& file, con
     }
     readings[place] = off.dot(touch.normal);
   }
-  std::vector<double> all;
-  for (std::size_t t = 0; t < readings.size(); ++t) {
-    if (!readings[t]) {
-      return table->placed(
-          error("touch-missing"_id,
-                fmt::format("{} of {} touches are there: {} is missing", table->rows(),
-                            plan.touches.size(), name_of_touch(piece, plan, t))),
-          table->header_line());
-    }
-    all.push_back(*readings[t]);
-  }
-  return all;
+  return instruments::all_readings(*table, readings,
+                                   [&](std::size_t t) { return name_of_touch(piece, plan, t); });
 }
 
 }  // namespace frustum::trials

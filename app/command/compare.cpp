@@ -383,9 +383,10 @@ void add_compare(Command& program) {
               "none (default): as they lie; best-fit; datum: by the datum system of --plan")
       .one_of({"none", "best-fit", "datum"});
   compare.option("--plan", o->plan, "Inspection plan whose datum system aligns the part");
-  compare.option("--tolerance", o->tolerance,
-                 "To either side, with its unit (50um); the share within is told, and exit code 1 "
-                 "says that it is not all");
+  compare.option(
+      "--tolerance", o->tolerance,
+      "To either side, with its unit (50um); the share within is printed, and exit code 1 "
+      "says that it is not all");
   compare.option("--deflection", o->deflection,
                  "How far triangles may leave the faces of a STEP file, with its unit (1um)");
   compare.option("--mesh", o->mesh, "Writes the part with its deviations: .ply, .vtp");

@@ -63,8 +63,9 @@ void add_machine_options(Command& command, MotionWords& words,
       "nominal (default: none)");
   command.option("--tool-length", words.tool_length,
                  "mm from the gauge point to the spindle ball (default 0)");
-  command.flag("--ball-known", words.ball_known,
-               "What is told where the offset of the spindle ball is known (default: it is not)");
+  command.flag(
+      "--ball-known", words.ball_known,
+      "What is identified where the offset of the spindle ball is known (default: it is not)");
   command.option("--noise", words.noise, noise);
   command.option("--resolution", words.resolution,
                  "Step of the readings, for example 0.1um (default: none)");

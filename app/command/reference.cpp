@@ -1,6 +1,7 @@
 // frustum reference: pages about the commands, for man, for shells and for the documents.
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
@@ -17,9 +18,34 @@ struct ReferenceOptions : AnswerOptions {
   std::string markdown{};
 };
 
+nlohmann::ordered_json json_of(const CommandFacts& command) {
+  nlohmann::ordered_json options = nlohmann::ordered_json::array();
+  for (const OptionFacts& option : command.options) {
+    options.push_back({{"names", option.names},
+                       {"positional", option.is_positional},
+                       {"required", option.is_required},
+                       {"value", option.value},
+                       {"words", option.words},
+                       {"help", option.help}});
+  }
+  nlohmann::ordered_json commands = nlohmann::ordered_json::array();
+  for (const CommandFacts& each : command.commands) commands.push_back(json_of(each));
+  return {{"name", command.name},
+          {"description", command.description},
+          {"options", options},
+          {"commands", commands}};
+}
+
 int write_reference(const ReferenceOptions& options, const CommandFacts& program) {
   if (options.man.empty() && options.completion.empty() && options.markdown.empty()) {
-    if (!options.quiet) std::cout << commands_markdown(program);
+    if (options.json) {
+      std::cout << nlohmann::ordered_json{{"schema", "frustum/reference/1"},
+                                          {"program", json_of(program)}}
+                       .dump(1)
+                << '\n';
+    } else if (!options.quiet) {
+      std::cout << commands_markdown(program);
+    }
     return kDone;
   }
   const auto write_into = [&](const std::string& folder,

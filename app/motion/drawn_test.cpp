@@ -10,8 +10,8 @@
 #include "app/motion/motion_dynamics.hpp"
 #include "core/constants.hpp"
 #include "instruments/approach.hpp"
+#include "instruments/circle_evaluation.hpp"
 #include "instruments/cone_test.hpp"
-#include "instruments/polar_fit.hpp"
 #include "instruments/reach.hpp"
 #include "instruments/readings.hpp"
 #include "instruments/signature.hpp"
@@ -104,27 +104,17 @@ auto line_readings_of(std::vector<LineTest> runs, std::vector<std::vector<Vec3>>
   };
 }
 
-// Without the minimum zones, which many draws would wait for.
 Result<Numbers> circle_numbers(const std::vector<CircleTrace>& traces, double length) {
-  Numbers numbers;
-  double largest_f = 0.0;
-  CircleTrace both;
-  for (const CircleTrace& trace : traces) {
-    const instruments::PolarSamples samples{trace.angle, trace.deviation};
-    const auto circle = instruments::least_squares_circle(samples);
-    if (!circle) return circle.error();
-    numbers.push_back(range_about(samples, *circle).width());
-    const auto f = range_about(samples, {0.0, circle->x, circle->y});
-    largest_f = std::max({largest_f, std::abs(f.least), std::abs(f.most)});
-    both.angle.insert(both.angle.end(), trace.angle.begin(), trace.angle.end());
-    both.deviation.insert(both.deviation.end(), trace.deviation.begin(), trace.deviation.end());
-  }
-  const instruments::PolarSamples samples{both.angle, both.deviation};
-  const auto circle = instruments::least_squares_circle(samples);
-  if (!circle) return circle.error();
+  const auto values = circle_values(traces, instruments::MinimumZones::left_out);
+  if (!values) return values.error();
   const auto terms = instruments::signature(traces, length);
   if (!terms) return terms.error();
-  numbers.insert(numbers.end(), {range_about(samples, *circle).width(), largest_f, circle->radial});
+  double largest_f = 0.0;
+  for (const auto* run : {&*values->ccw, &*values->cw}) {
+    largest_f = std::max({largest_f, std::abs(run->f_max), std::abs(run->f_min)});
+  }
+  Numbers numbers{values->ccw->g_least_squares, values->cw->g_least_squares,
+                  values->g_bi_least_squares, largest_f, values->d_mean_radial};
   for (const auto term : {SignatureTerm::scale, SignatureTerm::servo, SignatureTerm::backlash_1,
                           SignatureTerm::backlash_2}) {
     numbers.push_back((*terms)[term]);

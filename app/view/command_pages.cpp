@@ -137,7 +137,7 @@ std::string zsh_completion(const CommandFacts& program) {
 
 std::string commands_markdown(const CommandFacts& program) {
   std::string page =
-      "# Commands\n\nEvery command with its options, as `--help` tells them; this page is written "
+      "# Commands\n\nEvery command with its options, as `--help` prints them; this page is written "
       "by "
       "`frustum reference --markdown`.\n\n" +
       replaced(program.description, "\n", "\n\n") + "\n";

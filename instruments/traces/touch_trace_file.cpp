@@ -115,18 +115,8 @@ Result<std::vector<double>> read_touches(const std::filesystem::path& file, cons
     }
     readings[*at] = off.dot(nominal.normal);
   }
-  std::vector<double> all;
-  for (std::size_t t = 0; t < readings.size(); ++t) {
-    if (!readings[t]) {
-      return table->placed(
-          error("touch-missing"_id,
-                fmt::format("{} of {} touches are there: {} is missing", table->rows(),
-                            plan.touches.size(), place_of(plan, plan.touches[t]))),
-          table->header_line());
-    }
-    all.push_back(*readings[t]);
-  }
-  return all;
+  return all_readings(*table, readings,
+                      [&](std::size_t t) { return place_of(plan, plan.touches[t]); });
 }
 
 std::string touch_csv(const TouchPlan& plan, const std::vector<double>& readings) {

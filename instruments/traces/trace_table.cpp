@@ -149,4 +149,20 @@ Result<TraceTable> TraceTable::parse(std::string_view text, const std::filesyste
   return table;
 }
 
+Result<std::vector<double>> all_readings(const TraceTable& table,
+                                         std::span<const std::optional<double>> readings,
+                                         const std::function<std::string(std::size_t)>& name_of) {
+  std::vector<double> all;
+  for (std::size_t t = 0; t < readings.size(); ++t) {
+    if (!readings[t]) {
+      return table.placed(
+          error("touch-missing"_id, fmt::format("{} of {} touches are there: {} is missing",
+                                                table.rows(), readings.size(), name_of(t))),
+          table.header_line());
+    }
+    all.push_back(*readings[t]);
+  }
+  return all;
+}
+
 }  // namespace frustum::instruments

@@ -9,8 +9,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -65,5 +67,10 @@ class TraceTable {
   std::vector<Row> rows_{};
   std::map<std::string, TraceNote, std::less<>> notes_{};
 };
+
+// The readings of a plan's touches; refused where one is missing, by its name.
+[[nodiscard]] Result<std::vector<double>> all_readings(
+    const TraceTable& table, std::span<const std::optional<double>> readings,
+    const std::function<std::string(std::size_t)>& name_of);
 
 }  // namespace frustum::instruments

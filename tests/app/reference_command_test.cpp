@@ -1,6 +1,8 @@
 // frustum reference: man pages, completion and docs/commands.md.
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/app/command_line.hpp"
 
 namespace frustum {
@@ -15,6 +17,14 @@ TEST_F(ReferenceSystem, TheDocumentOfCommandsIsThatOfTheProgram) {
   ASSERT_EQ(written.exit_code, 0) << written.err;
   EXPECT_EQ(read(folder_ / "commands.md"), read(fs::path(FRUSTUM_SOURCE_DIR) / "docs/commands.md"))
       << "build/frustum reference --markdown docs/commands.md";
+}
+
+TEST_F(ReferenceSystem, AnswersInOneDocument) {
+  const Outcome said = run("reference --json");
+  ASSERT_EQ(said.exit_code, 0) << said.err;
+  const auto document = nlohmann::json::parse(said.out);
+  EXPECT_EQ(document["schema"], "frustum/reference/1");
+  EXPECT_EQ(document["program"]["commands"][0]["name"], "frustum run");
 }
 
 TEST_F(ReferenceSystem, EveryCommandHasAPageOfMan) {

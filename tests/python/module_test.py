@@ -15,14 +15,14 @@ PROGRAM = os.environ["FRUSTUM_PROGRAM"]
 EXAMPLES = os.path.join(os.getcwd(), "examples")
 
 
-def told(*arguments, exit_codes=(0, 1)):
+def printed(*arguments, exit_codes=(0, 1)):
     done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True)
     assert done.returncode in exit_codes, done.stderr
     return done.stdout
 
 
 def document(*arguments):
-    return json.loads(told(*arguments, "--json"))
+    return json.loads(printed(*arguments, "--json"))
 
 
 class MachineTest(unittest.TestCase):
@@ -137,7 +137,7 @@ class JobTest(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.piece = os.path.join(cls.folder.name, "piece")
-        told("program", "cone", "--machine", "iwf-bc", "--chord-tolerance", "2", "--cone-angle", "45",
+        printed("program", "cone", "--machine", "iwf-bc", "--chord-tolerance", "2", "--cone-angle", "45",
              "--inclination", "30", "--out", cls.piece)
         cls.file = os.path.join(cls.piece, "job.toml")
         cls.job = frustum.Job(cls.file)
@@ -149,7 +149,7 @@ class JobTest(unittest.TestCase):
 
     def test_trial_is_that_of_run(self):
         out = os.path.join(self.folder.name, "out")
-        told("run", self.file, "--error", "EX0C=10 um", "--out", out)
+        printed("run", self.file, "--error", "EX0C=10 um", "--out", out)
         with open(os.path.join(out, "result.json")) as file:
             result = json.load(file)
         self.assertEqual({c["name"]: c["value"] for c in result["characteristics"]}, self.trial.values)
@@ -178,10 +178,10 @@ class JobTest(unittest.TestCase):
 
     def test_sensitivities_are_those_of_the_command(self):
         found = self.job.sensitivity(["EX0C", "EB0C"])
-        told_by_command = document("sensitivity", self.file, "--parameter", "EX0C", "--parameter", "EB0C")
+        by_command = document("sensitivity", self.file, "--parameter", "EX0C", "--parameter", "EB0C")
         self.assertEqual(found["parameters"], ["EX0C", "EB0C"])
         self.assertEqual(found["odd"].shape, (len(found["characteristics"]), 2))
-        self.assertIn("EX0C", json.dumps(told_by_command))
+        self.assertIn("EX0C", json.dumps(by_command))
         self.assertGreater(abs(found["odd"]).max(), 0.1)
 
     def test_populations_are_the_draws_of_a_study(self):
@@ -192,7 +192,7 @@ class JobTest(unittest.TestCase):
         values, failures = population.evaluate(3)
         self.assertEqual(failures, {})
         csv = os.path.join(self.folder.name, "draws.csv")
-        told("study", study, "--samples", "3", "--seed", "4", "--csv", csv, "--out",
+        printed("study", study, "--samples", "3", "--seed", "4", "--csv", csv, "--out",
              os.path.join(self.folder.name, "study"))
         with open(csv) as file:
             heads = file.readline().rstrip("\n").split(",")
@@ -213,7 +213,7 @@ class JobTest(unittest.TestCase):
 
     def test_motions_are_those_of_parse(self):
         file = os.path.join(self.piece, "cone.nc")
-        lines = [json.loads(line) for line in told("parse", file, "--canon").splitlines()]
+        lines = [json.loads(line) for line in printed("parse", file, "--canon").splitlines()]
         self.assertEqual(frustum.Program(file).motions, lines)
 
 
