@@ -76,6 +76,8 @@ class LinuxCncText : public ProbingText {
     line(fmt::format("({})", program().title));
     line(fmt::format("(G54: {})", program().origin));
     line("G21 G17 G90 G94 G40 G80 G54");
+    line("T1 M6");
+    line("G43 H1");
     line("(LOGOPEN,touches.csv)");
     line(fmt::format("(LOG,{})", columns()));
   }
@@ -85,6 +87,7 @@ class LinuxCncText : public ProbingText {
   }
   void end() override {
     line("(LOGCLOSE)");
+    line("G49");
     line("M2");
   }
 };
@@ -226,10 +229,11 @@ std::string probing_text(const ProbingProgram& program, Dialect dialect) {
   const auto out = text_of(program, dialect);
   out->begin();
   const std::string up = out->word('Z', program.safe);
+  const std::string over = out->word('Z', std::max(program.safe, program.turning));
   const ProgrammedTouch* before = nullptr;
   for (const ProgrammedTouch& touch : program.touches) {
     if (before == nullptr || before->turned != touch.turned) {
-      out->rapid(up);
+      out->rapid(over);
       if (!program.rotary.empty()) out->rapid(out->turns(touch));
     }
     out->rapid(out->word('X', touch.approach.x()) + " " + out->word('Y', touch.approach.y()));

@@ -34,8 +34,10 @@ struct ProbingProgram {
   std::string name{};    // of the files: "touch"; of the log: touches.csv
   int number = 1;        // of Fanuc's program
   std::string rotary{};  // letters of the rotary axes: "AC"
-  double safe = 0.0;     // Z at which the ball is clear of everything
-  double back = 0.0;     // mm that the probe goes back after it has tripped
+  // Z at which the ball is clear of everything: where the rotary axes stand, and where they turn;
+  // before the first touch they may be anywhere between zero and their first position.
+  double safe = 0.0, turning = 0.0;
+  double back = 0.0;  // mm that the probe goes back after it has tripped
   std::vector<ProgrammedTouch> touches{};
 };
 

@@ -35,9 +35,11 @@ class SpikeFit {
     for (const auto& of_trace : left) count += static_cast<Eigen::Index>(of_trace.size());
     terms_.resize(count, kTerms);
     left_over_.resize(count);
+    length_ = length;
     for (std::size_t axis = 0; axis < 2; ++axis) {
       lag_.at(axis).resize(count);
       travel_.at(axis).resize(count);
+      place_.at(axis).resize(count);
     }
     Eigen::Index at = 0;
     for (std::size_t t = 0; t < traces.size(); ++t) {
@@ -50,6 +52,8 @@ class SpikeFit {
         lag_[1][at] = -head2 * s;
         travel_[0][at] = travel_since(length, c, head1 > 0.0);
         travel_[1][at] = travel_since(length, s, head2 > 0.0);
+        place_[0][at] = length * c;
+        place_[1][at] = length * s;
         left_over_[at] = left[t][i];
       }
     }
@@ -88,10 +92,31 @@ class SpikeFit {
     return fit;
   }
 
+  // How much of the spike's shape there is near the two ends of the axis however it came there, root
+  // mean square of both, by least squares together with the terms and the spikes.
+  [[nodiscard]] double of_position(const Distances& distances, std::size_t axis) const {
+    Eigen::MatrixXd columns(count(), kColumns + 2);
+    columns.leftCols(kTerms) = terms_;
+    for (std::size_t of = 0; of < 2; ++of) {
+      columns.col(kTerms + static_cast<Eigen::Index>(of)) =
+          lag_.at(of).array() * (-travel_.at(of).array() / distances.at(of)).exp();
+    }
+    const Eigen::ArrayXd place = place_.at(axis).array();
+    columns.col(kColumns) = place / length_ * ((place - length_) / distances.at(axis)).exp();
+    columns.col(kColumns + 1) = place / length_ * ((-place - length_) / distances.at(axis)).exp();
+    Eigen::MatrixXd normal = columns.transpose() * columns;
+    // Where one sense alone was run the column of servo mismatch is empty.
+    normal.diagonal().array() += 1e-9 * normal.diagonal().maxCoeff();
+    const Eigen::VectorXd x =
+        SymmetricFactors(normal).solve(Eigen::VectorXd(columns.transpose() * left_over_));
+    return std::sqrt(0.5 * x.tail<2>().squaredNorm());
+  }
+
  private:
+  double length_ = 0.0;
   Eigen::MatrixXd terms_{};
   Eigen::VectorXd left_over_{};
-  std::array<Eigen::VectorXd, 2> lag_{}, travel_{};
+  std::array<Eigen::VectorXd, 2> lag_{}, travel_{}, place_{};
   Eigen::MatrixXd normal_{};
   Eigen::VectorXd right_{};
 };
@@ -139,13 +164,15 @@ Result<ReversalSpikes> reversal_spikes(std::span<const CircleTrace> traces, doub
   const double variance = free > 0.0 ? fit.squares / free : 0.0;
   result.residual_rms = std::sqrt(fit.squares / count);
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    constexpr double kClear = 5.0, kWorthReporting = 1e-4;
+    constexpr double kClear = 5.0, kWorthReporting = 1e-4, kAtTheEdge = 0.05;
     const Eigen::Index column = kTerms + static_cast<Eigen::Index>(axis);
     Spike& spike = result.axes.at(axis);
     spike.height = fit.x[column];
     spike.distance = best.at(axis);
-    spike.sd = std::sqrt(variance * fit.variances[column]);
-    spike.seen = std::abs(spike.height) > std::max(kClear * spike.sd, kWorthReporting);
+    spike.sd =
+        std::max(std::sqrt(variance * fit.variances[column]), spikes.of_position(best, axis));
+    spike.seen = std::abs(spike.height) > std::max(kClear * spike.sd, kWorthReporting) &&
+                 std::log(spike.distance) < high - kAtTheEdge;
   }
   for (std::size_t k = 0; k < kSignatureTerms; ++k) {
     const bool angle = static_cast<SignatureTerm>(k) == SignatureTerm::square;

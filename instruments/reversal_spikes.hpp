@@ -22,8 +22,11 @@ namespace frustum::instruments {
 struct Spike {
   double height = 0.0;    // a; above 0: a lag
   double distance = 0.0;  // d
-  double sd = 0.0;        // of the height, for independent noise of the size of the residuals
-  // Above five standard deviations and a tenth of a micrometre; else nothing is seen of it.
+  // Of the height: for independent noise of the size of the residuals, and at least what the same
+  // shape takes that does not ask where the axis comes from, as an error of its position does.
+  double sd = 0.0;
+  // Above five standard deviations and a tenth of a micrometre, and dying away within the distances
+  // that are tried; else nothing is seen of it.
   bool seen = false;
 };
 

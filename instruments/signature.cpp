@@ -188,6 +188,7 @@ std::vector<Contribution> contributions(std::span<const CircleTrace> traces,
   std::vector<Contribution> all;
   double sum = 0.0;
   for (std::size_t k = static_cast<std::size_t>(SignatureTerm::scale); k < kSignatureTerms; ++k) {
+    if (!signature.both_senses && k == static_cast<std::size_t>(SignatureTerm::servo)) continue;
     all.push_back({static_cast<SignatureTerm>(k), of_terms[k].most - of_terms[k].least});
     sum += all.back().width;
   }

@@ -11,6 +11,7 @@ ProbingProgram touch_program(const TouchPlan& plan, const TouchProbe& probe) {
       .number = 5007,
       .rotary = "AC",
       .safe = column_reach() + probe.ball_radius + kAbove,
+      .turning = column_reach() + probe.ball_radius + kAbove,
       .back = kTouchApproach};
   for (const PlannedTouch& planned : plan.touches) {
     const TouchPoint& point = touch_points().at(planned.point);

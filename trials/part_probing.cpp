@@ -69,6 +69,40 @@ double top_of(const Machine& machine, const TestPiece& piece, const PartTouches&
   return top;
 }
 
+// The highest while the rotary axes turn, each in its own time, anywhere between zero and the poses.
+double top_while_turning(const Machine& machine, const TestPiece& piece, const PartTouches& plan,
+                         const Box& bounds) {
+  constexpr double kStep = 5.0 * kRadPerDeg;
+  std::vector<AxisPositions> places{{}};
+  int turning = 0;
+  for (const auto letter : kinematics::kRotaryAxes) {
+    double low = 0.0, high = 0.0;
+    for (const AxisPositions& pose : plan.poses) {
+      low = std::min(low, pose[letter]);
+      high = std::max(high, pose[letter]);
+    }
+    const int steps = static_cast<int>(std::ceil((high - low) / kStep));
+    if (steps > 0) ++turning;
+    std::vector<AxisPositions> with_axis;
+    for (const AxisPositions& place : places) {
+      for (int i = 0; i <= steps; ++i) {
+        with_axis.push_back(place);
+        with_axis.back()[letter] =
+            steps == 0 ? low : std::lerp(low, high, static_cast<double>(i) / steps);
+      }
+    }
+    places = std::move(with_axis);
+  }
+  double top = -HUGE_VAL, lowest = HUGE_VAL;
+  for (const AxisPositions& place : places) {
+    const double here = top_of(machine, piece, plan, place, bounds);
+    top = std::max(top, here);
+    lowest = std::min(lowest, here);
+  }
+  // Between two places a corner rises above both by less than this share of its way up and down.
+  return top + turning * (1.0 - std::cos(0.5 * kStep)) * 2.0 * (top - lowest);
+}
+
 // Straight up from where the axes are.
 AxisPositions lifted(const Machine& machine, const TestPiece& piece, const PartTouches& plan,
                      const PartTouch& touch, const Vec3& centre, AxisPositions q) {
@@ -155,6 +189,8 @@ Result<PartTouches> part_touches(const Machine& machine, const TestPiece& piece,
     plan.safe = std::max(plan.safe, top_of(machine, piece, plan, pose, blank->bounds()));
   }
   plan.safe += plan.ball_radius + kAbove;
+  plan.turning = std::max(plan.safe, top_while_turning(machine, piece, plan, blank->bounds()) +
+                                         plan.ball_radius + kAbove);
   for (std::size_t f = 0; f < piece.plan.features.size(); ++f) {
     std::size_t index = 0;
     for (const auto& planned : metrology::planned_points(piece.plan.features[f])) {
@@ -181,6 +217,9 @@ Result<PartTouches> part_touches(const Machine& machine, const TestPiece& piece,
         for (const AxisPositions& each : {q, up}) {
           if (auto problem = beyond_travel(machine, each, place)) return *std::move(problem);
         }
+        AxisPositions turning = up;
+        turning[AxisLetter::Z] += plan.turning - plan.safe;
+        plan.can_turn = plan.can_turn && within_travel(machine, turning);
       }
       plan.touches.push_back(touch);
     }

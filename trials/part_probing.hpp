@@ -47,7 +47,10 @@ struct PartTouches {
   std::vector<PartTouch> touches{};
   // Where X, Y and Z of a program are counted from: G54 of the piece, without a tool.
   kinematics::AxisPositions origin{};
-  double safe = 0.0;  // Z, counted so, at which the ball is clear of the blank
+  // Z, counted so, at which the ball is clear of the blank: at the poses, and while the rotary axes
+  // turn anywhere between zero and them; and whether the machine has so much travel.
+  double safe = 0.0, turning = 0.0;
+  bool can_turn = true;
   double ball_radius = 0.0, clearance = 0.0, reach = 0.0;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -76,12 +77,20 @@ Result<instruments::ProbingProgram> part_program(const Machine& machine,
         "without tool centre point control depend on the length of the probe",
         "--at with poses at which the tool is along Z");
   }
+  if (!plan.can_turn) {
+    return error("axis-overtravel"_id,
+                 fmt::format("no probing program: while the rotary axes turn the blank comes up to "
+                             "Z {:.3f} of the program, and Z has not the travel to stay above it",
+                             plan.turning),
+                 "other poses (--at), a shorter probe, or another place of the part");
+  }
   instruments::ProbingProgram program{
       .title = "THE PART IS PROBED WHERE IT WAS CUT",
       .origin = "ORIGIN OF THE PROGRAM THAT CUT THE PART. TOOL LENGTH: TO THE CENTRE OF THE BALL",
       .name = "probe",
       .number = 5008,
       .safe = plan.safe,
+      .turning = plan.turning,
       .back = plan.clearance};
   for (const auto letter : rotary) program.rotary += to_char(letter);
   for (std::size_t t = 0; t < plan.touches.size(); ++t) {
@@ -175,6 +184,37 @@ Result<std::vector<double>> read_part_log(const std::filesystem::path& file, con
   }
   return instruments::all_readings(*table, readings,
                                    [&](std::size_t t) { return name_of_touch(piece, plan, t); });
+}
+
+Diagnostics touches_apart(const programs::TestPiece& piece, const PartTouches& plan,
+                          std::span<const double> readings) {
+  constexpr double kLeast = 0.05, kScatters = 50.0;
+  const auto median_of = [](std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+  };
+  Diagnostics remarks;
+  for (std::size_t f = 0; f < piece.plan.features.size(); ++f) {
+    std::vector<double> own, apart;
+    for (std::size_t t = 0; t < plan.touches.size(); ++t) {
+      if (plan.touches[t].feature == f) own.push_back(readings[t]);
+    }
+    if (own.size() < 3) continue;
+    const double middle = median_of(own);
+    for (const double each : own) apart.push_back(std::abs(each - middle));
+    const double limit = std::max(kLeast, kScatters * median_of(apart));
+    for (std::size_t t = 0; t < plan.touches.size(); ++t) {
+      const double off = readings[t] - middle;
+      if (plan.touches[t].feature != f || std::abs(off) <= limit) continue;
+      remarks.push_back(
+          warning("touch-apart"_id,
+                  fmt::format("{} is {:.3f} mm from where the others of its feature are",
+                              name_of_touch(piece, plan, t), off),
+                  "clean the surface and probe it again"));
+    }
+  }
+  return remarks;
 }
 
 }  // namespace frustum::trials

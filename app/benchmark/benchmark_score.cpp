@@ -1,6 +1,7 @@
 #include "app/benchmark/benchmark_score.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -8,6 +9,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "core/counted.hpp"
 #include "core/csv.hpp"
 #include "core/printable_text.hpp"
 #include "core/text_words.hpp"
@@ -96,8 +98,21 @@ class SubmissionRows {
                           fmt::format("{} '{}' is there twice", what, printable(id)));
     }
     seen_.emplace(id, std::nullopt);
+    if (const auto sd = number_of(row, 2); sd && !(*sd > 0.0)) {
+      return table_.about(row, 2, "out-of-range"_id,
+                          fmt::format("a standard deviation of {:g}: it must be above 0", *sd),
+                          "say how sure the prediction is; nothing is exact");
+    }
     for (const std::size_t column : {std::size_t{1}, std::size_t{2}}) {
-      if (number_of(row, column)) continue;
+      if (const auto number = number_of(row, column)) {
+        // Beyond it sums of squares would be no numbers any more.
+        constexpr double kMost = 1e9, kLeastSd = 1e-9;
+        if (std::abs(*number) <= kMost && (column == 1 || *number >= kLeastSd)) continue;
+        return table_.about(row, column, "out-of-range"_id,
+                            fmt::format("{:g} is no prediction", *number),
+                            fmt::format("means within {:g}, standard deviations from {:g} to {:g}",
+                                        kMost, kLeastSd, kMost));
+      }
       if (!is_not_finite(row.fields[column].text)) {
         return table_.about(row, column, "csv"_id,
                             fmt::format("'{}' is no number", printable(row.fields[column].text)));
@@ -109,14 +124,28 @@ class SubmissionRows {
       score_.notes.push_back(std::move(note));
       return std::nullopt;
     }
-    if (!(*number_of(row, 2) > 0.0)) {
-      return table_.about(
-          row, 2, "out-of-range"_id,
-          fmt::format("a standard deviation of {:g}: it must be above 0", *number_of(row, 2)),
-          "say how sure the prediction is; nothing is exact");
-    }
     seen_[id] = Forecast{*number_of(row, 1), *number_of(row, 2)};
     return std::nullopt;
+  }
+
+  // Names what has no row at all.
+  void note_missing(const fs::path& file, const char* what, const std::vector<const Values*>& all) {
+    std::vector<std::string> missing;
+    for (const Values* values : all) {
+      for (const auto& [id, value] : *values) {
+        if (!seen_.contains(id)) missing.push_back(id);
+      }
+    }
+    if (missing.empty()) return;
+    constexpr std::size_t kNamed = 5;
+    const std::size_t count = missing.size();
+    missing.resize(std::min(count, kNamed));
+    Diagnostic note = warning("row-missing"_id,
+                              fmt::format("{} without a row: {}{}", counted(count, what),
+                                          fmt::join(missing, ", "), count > kNamed ? ", .." : ""),
+                              "each counts ten times the prior's score");
+    note.file = file.string();
+    score_.notes.push_back(std::move(note));
   }
 
   [[nodiscard]] const std::map<std::string, std::optional<Forecast>>& forecasts() const {
@@ -196,6 +225,8 @@ Result<MachineScore> score_machine(const std::string& id, const fs::path& benchm
     const bool is_asked = answers->points.contains(name) || answers->poses.contains(name);
     if (auto fault = asked.add(row, is_asked, "question")) return *fault;
   }
+  asked.note_missing(submission / id / "predictions.csv", "question",
+                     {&answers->points, &answers->poses});
   const auto errors =
       CsvTable::load(submission / id / "errors.csv", {"name", "mean", "sd", "unit"});
   if (!errors) return errors.error();
@@ -225,6 +256,7 @@ Result<MachineScore> score_machine(const std::string& id, const fs::path& benchm
     const bool is_asked = answers->errors.contains(row.fields[0].text);
     if (auto fault = named.add(row, is_asked, "error")) return *fault;
   }
+  named.note_missing(submission / id / "errors.csv", "error", {&answers->errors});
   auto points = scored(answers->points, *prior, asked.forecasts(), false, prior_file);
   if (!points) return points.error();
   auto poses = scored(answers->poses, *prior, asked.forecasts(), false, prior_file);
@@ -281,6 +313,34 @@ std::optional<Diagnostic> method_missing(const fs::path& benchmark, const fs::pa
   return problem;
 }
 
+// What is not scored: machines without a folder, and what is in the submission beside them.
+Diagnostics passed_over(const fs::path& submission, const std::vector<std::string>& ids) {
+  Diagnostics remarks;
+  const auto remark = [&](const std::string& name, std::string what) {
+    remarks.push_back(warning("not-scored"_id, std::move(what)));
+    remarks.back().file = (submission / name).string();
+  };
+  std::error_code failure;
+  std::vector<std::string> missing, other;
+  for (const std::string& id : ids) {
+    if (!fs::is_directory(submission / id, failure)) missing.push_back(id);
+  }
+  for (fs::directory_iterator at(submission, failure), end; !failure && at != end;
+       at.increment(failure)) {
+    const std::string name = at->path().filename().string();
+    if (name != "method.md" && std::ranges::find(ids, name) == ids.end()) other.push_back(name);
+  }
+  std::ranges::sort(other);
+  for (const std::string& name : other) {
+    remark(name, "no machine whose answers are known: it is not scored");
+  }
+  if (!missing.empty()) {
+    remark("", fmt::format("{} whose answers are known is not in it: {}",
+                           counted(missing.size(), "machine"), fmt::join(missing, ", ")));
+  }
+  return remarks;
+}
+
 }  // namespace
 
 Result<std::vector<MachineScore>> score_submission(const fs::path& benchmark,
@@ -312,6 +372,10 @@ Result<std::vector<MachineScore>> score_submission(const fs::path& benchmark,
         fmt::format("{} has no folder of a machine whose answers are known", submission.string()),
         fmt::format("for example {}/predictions.csv and errors.csv",
                     (submission / ids.front()).string()));
+  }
+  auto& remarks = scores.front().notes;
+  for (const Diagnostic& each : passed_over(submission, ids)) {
+    remarks.insert(remarks.begin(), each);
   }
   if (unsaid) scores.front().notes.insert(scores.front().notes.begin(), *unsaid);
   return scores;

@@ -319,6 +319,33 @@ Diagnostics unwritable_outputs(const CompareOptions& options) {
   return wrong;
 }
 
+double diagonal_of(const SurfaceMesh& mesh) {
+  if (mesh.vertices.empty()) return 0.0;
+  Vec3 low = mesh.vertices.front(), high = low;
+  for (const Vec3& p : mesh.vertices) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return (high - low).norm();
+}
+
+// A part that is as much larger or smaller as inches or metres are.
+Diagnostics other_units(const SurfaceMesh& part, const SurfaceMesh& shape,
+                        const CompareOptions& options) {
+  constexpr double kNear = 0.02;
+  const double ratio = diagonal_of(part) / diagonal_of(shape);
+  for (const auto& [factor, unit] :
+       {std::pair{25.4, "inches"}, {1000.0, "metres"}, {10.0, "centimetres"}}) {
+    const bool part_is = std::abs(ratio * factor - 1.0) < kNear;
+    if (!part_is && !(std::abs(ratio / factor - 1.0) < kNear)) continue;
+    return {warning("other-unit"_id,
+                    fmt::format("{} is {:.4g} times as large as {}: one of them seems to be in {}",
+                                options.part, ratio, options.nominal, unit),
+                    "meshes are read as millimetres")};
+  }
+  return {};
+}
+
 int compare_meshes(const CompareOptions& options, const report::PictureOptions& picture) {
   if (const auto wrong = unwritable_outputs(options); !wrong.empty()) {
     return refuse(wrong, options);
@@ -337,6 +364,7 @@ int compare_meshes(const CompareOptions& options, const report::PictureOptions& 
   if (!shape) return refuse(shape.error(), options);
   shape = closed_shape(*std::move(shape), options.nominal);
   if (!shape) return refuse(shape.error(), options);
+  print(std::cerr, other_units(*part, *shape, options));
   const auto found = compared(options, *part, *std::move(shape));
   if (!found) return refuse(found.error(), options);
   std::vector<std::string> written;

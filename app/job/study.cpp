@@ -7,6 +7,7 @@
 
 #include "app/job/measured_values.hpp"
 #include "core/toml_document.hpp"
+#include "core/units.hpp"
 #include "metrology/plan/point_deviations.hpp"
 #include "metrology/uncertainty/point_uncertainty.hpp"
 #include "trials/parameter.hpp"
@@ -187,6 +188,21 @@ void rename_if_known(calibration::MeasuredMotion& motion, const std::vector<Stud
   }
 }
 
+// Tests share the offset of their ball, and with it what is known of it.
+void check_ball(const TomlTable& table, const calibration::MeasuredMotion& motion,
+                const std::vector<StudyMotion>& others) {
+  if (!motion.ball_known_to) return;
+  for (const StudyMotion& other : others) {
+    const auto& before = other.motion.ball_known_to;
+    if (other.motion.ball != motion.ball || !before || *before == *motion.ball_known_to) continue;
+    table.fail("ball_uncertainty", "contradiction"_id,
+               fmt::format("test '{}' says {:g} um of the same ball", other.motion.name,
+                           *before * kUmPerMm),
+               "say it once, or give the balls different names: ball = \"..\"");
+    return;
+  }
+}
+
 Parts read_parts(const TomlDocument& document, const MotionReader& read_motion, bool planned) {
   Parts found;
   const std::vector<TomlTable> tables = document.root().tables("part");
@@ -201,6 +217,7 @@ Parts read_parts(const TomlDocument& document, const MotionReader& read_motion, 
     const std::optional<double> hours = read_hours(table);
     if (auto motion = read_motion(table)) {
       if (!*motion) continue;
+      check_ball(table, (*motion)->motion, found.motions);
       rename_if_known((*motion)->motion, found.motions);
       found.motions.push_back(**std::move(motion));
       found.motions.back().hours = hours;

@@ -29,6 +29,15 @@ Pose along(const Vec3& place, const Vec3& direction) {
   return {rotation, place};
 }
 
+// A sample each two degrees, or more.
+int samples_of(const programs::BarPass& pass) {
+  constexpr double kStep = 2.0 * kRadPerDeg;
+  return 1 + std::max(1, static_cast<int>(std::ceil(std::abs(pass.to - pass.from) / kStep)));
+}
+double parameter_of(const programs::BarPass& pass, int sample) {
+  return std::lerp(pass.from, pass.to, static_cast<double>(sample) / (samples_of(pass) - 1));
+}
+
 bool is_ignored(const SceneBody& a, const SceneBody& b) {
   const auto names = [](const SceneBody& one, const SceneBody& other) {
     return std::ranges::find(one.ignored, other.name) != one.ignored.end();
@@ -53,6 +62,22 @@ class Nearest {
 };
 
 }  // namespace
+
+double least_angle_at_stem(const kinematics::Machine& machine, const instruments::MotionTest& test,
+                           const programs::BarPass& pass) {
+  double least = HUGE_VAL;
+  if (!test.motion.axes) return least;
+  const kinematics::GeometricErrors none;
+  const kinematics::ForwardChain nominal(machine, none, test.tool_length);
+  for (int i = 0; i < samples_of(pass); ++i) {
+    const kinematics::AxisPositions q = test.motion.axes(parameter_of(pass, i));
+    const Pose tool = nominal.bed_from_tool(q);
+    const Vec3 to_table_ball = nominal.bed_from_table(q).point(test.table_ball) - tool.translation;
+    least = std::min(least, std::acos(std::clamp(
+                                to_table_ball.normalized().dot(tool.rotation.col(2)), -1.0, 1.0)));
+  }
+  return least;
+}
 
 Result<std::optional<BarClearance>> bar_clearance(const kinematics::Machine& machine,
                                                   const instruments::MotionTest& test,
@@ -83,10 +108,8 @@ Result<std::optional<BarClearance>> bar_clearance(const kinematics::Machine& mac
   const kinematics::GeometricErrors none;
   const kinematics::ForwardChain nominal(machine, none, test.tool_length);
   Nearest nearest(machine);
-  constexpr double kStep = 2.0 * kRadPerDeg;
-  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(pass.to - pass.from) / kStep)));
-  for (int i = 0; i <= steps; ++i) {
-    const double parameter = std::lerp(pass.from, pass.to, static_cast<double>(i) / steps);
+  for (int i = 0; i < samples_of(pass); ++i) {
+    const double parameter = parameter_of(pass, i);
     const kinematics::AxisPositions q = test.motion.axes(parameter);
     const Vec3 tip = nominal.bed_from_tool(q).translation;
     const Vec3 ball = nominal.bed_from_table(q).point(test.table_ball);

@@ -16,6 +16,7 @@
 #include <string>
 
 #include "core/result.hpp"
+#include "core/units.hpp"
 #include "instruments/motion_test.hpp"
 #include "kinematics/model/machine.hpp"
 #include "programs/motion/motion_program.hpp"
@@ -24,8 +25,9 @@ namespace frustum::app {
 
 inline constexpr double kBarDiameter = 8.0, kStemDiameter = 20.0;
 inline constexpr double kCupDiameter = 25.0, kCupHeight = 25.0;
-inline constexpr double kBarEnds = 15.0;    // beside each ball
-inline constexpr double kLeastStem = 60.0;  // tool length
+inline constexpr double kBarEnds = 15.0;                     // beside each ball
+inline constexpr double kLeastStem = 60.0;                   // tool length
+inline constexpr double kBarBesideStem = 45.0 * kRadPerDeg;  // a bar nearer to it meets its holder
 
 struct BarClearance {
   double distance = 0.0;  // 0: they meet
@@ -38,5 +40,10 @@ struct BarClearance {
 [[nodiscard]] Result<std::optional<BarClearance>> bar_clearance(const kinematics::Machine& machine,
                                                                 const instruments::MotionTest& test,
                                                                 const programs::BarPass& pass);
+
+// The least angle between the bar, from its spindle ball, and the tool axis, over the pass.
+[[nodiscard]] double least_angle_at_stem(const kinematics::Machine& machine,
+                                         const instruments::MotionTest& test,
+                                         const programs::BarPass& pass);
 
 }  // namespace frustum::app

@@ -66,6 +66,7 @@ void add_signature(Document& doc, const Signature& s, const std::vector<Contribu
     sd[name] = known(s.sd[k] * unit_of(term));
     per_um[name] = known(s.sd_per_noise[k] * unit_of(term) / kUmPerMm);
   }
+  if (!s.both_senses) width["servo"] = share["servo"] = std::optional<double>();
   for (const Contribution& each : ranked) {
     width[contribution_name(each)] = each.width * kUmPerMm;
     share[contribution_name(each)] = each.share;
@@ -254,7 +255,9 @@ void add_spikes(MotionAnswer& answer, Document& doc, const std::vector<CircleTra
     Document value;
     for (std::size_t k = 0; k < kSignatureTerms; ++k) {
       const auto term = static_cast<SignatureTerm>(k);
-      value[text_of(term).name] = found->signature.at(k) * unit_of(term);
+      const bool known = term != SignatureTerm::servo || traces.size() > 1;
+      value[text_of(term).name] =
+          known ? std::optional(found->signature.at(k) * unit_of(term)) : std::nullopt;
     }
     spikes["signature_without"] = value;
     table.note = fmt::format(

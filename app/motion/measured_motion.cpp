@@ -26,6 +26,9 @@ struct MotionEntry {
   double noise = 0.0;    // 0: not said
   bool planned = false;  // at the test's own angles, where nothing is off
   std::string ball{};
+  std::optional<double> ball_known_to{};
+  bool marks = false;                 // as of CircleTraceWords
+  std::optional<double> overshoot{};  // rad
 };
 
 Diagnostic file_count(const MotionEntry& entry, const char* what) {
@@ -156,7 +159,9 @@ class TestReader {
       return all;
     }
     instruments::CircleTraceWords reading{.plane = plane, .length = length, .stroke = stroke};
-    if (!plane) reading.sense_may_be_missing = true;
+    reading.of_rotary_axis = !plane;
+    reading.marks = entry_.marks;
+    reading.overshoot = entry_.overshoot;
     return read_circle_traces(entry_.traces, reading);
   }
   template <typename Make>
@@ -193,8 +198,28 @@ Result<std::optional<StudyMotion>> refused(const TomlTable& table, const TestFil
   return in_test_file(test, std::move(of_file));
 }
 
+// What is known beforehand of the offset of the ball in the spindle.
+std::optional<double> read_ball_uncertainty(const TomlTable& table, const std::string& ball) {
+  const std::string text = table.text_or("ball_uncertainty", "");
+  if (text.empty()) return std::nullopt;
+  const auto quantity = parse_quantity(text);
+  if (!quantity || quantity->kind != UnitKind::length || !(quantity->value > 0.0)) {
+    table.fail("ball_uncertainty", "wrong-unit"_id,
+               fmt::format("'{}' is no length above 0 with its unit", text),
+               "one standard deviation of X, Y and Z of the ball, for example \"30um\"");
+    return std::nullopt;
+  }
+  if (ball == "exact") {
+    table.fail("ball_uncertainty", "contradiction"_id, "an exact ball has no uncertainty",
+               "leave out one of ball and ball_uncertainty");
+    return std::nullopt;
+  }
+  return quantity->value;
+}
+
 Result<std::optional<StudyMotion>> read_motion(const TomlTable& table, bool planned) {
   const fs::path file = table.file_path("test");
+  if (!table.has("test")) return std::optional<StudyMotion>{};  // which is said
   MotionEntry entry{.name = table.text_or("name", file.stem().string())};
   for (const std::string& trace : table.texts_or("traces", {})) {
     entry.traces.push_back(table.folder() / trace);
@@ -203,7 +228,8 @@ Result<std::optional<StudyMotion>> read_motion(const TomlTable& table, bool plan
   if (entry.traces.empty() && !planned) {
     table.fail("traces", "nothing-measured"_id, "no measured readings",
                "traces = [\"trace.csv\"]: what frustum motion trace reads");
-    for (const char* key : {"noise", "ball"}) (void)table.has(key);  // known, though not read
+    for (const char* key : {"noise", "ball", "ball_uncertainty", "angle", "overshoot"})
+      (void)table.has(key);  // known, though not read
     return std::optional<StudyMotion>{};
   }
   if (const std::string noise = table.text_or("noise", ""); !noise.empty()) {
@@ -216,7 +242,22 @@ Result<std::optional<StudyMotion>> read_motion(const TomlTable& table, bool plan
       entry.noise = quantity->value;
     }
   }
+  const std::string angle = table.text_or("angle", "commanded");
+  if (angle != "commanded" && angle != "feed") {
+    table.fail("angle", "unknown-choice"_id, fmt::format("'{}' is not known", angle),
+               "feed: times between feed-in and feed-out; commanded: over the capture");
+  }
+  entry.marks = angle == "feed";
+  if (table.has("overshoot")) {
+    const double overshoot = table.number("overshoot");
+    entry.overshoot = overshoot * kRadPerDeg;
+    if (!entry.marks || !(overshoot >= 0.0 && overshoot <= 360.0)) {
+      table.fail("overshoot", "out-of-range"_id, fmt::format("{:g}", overshoot),
+                 "degrees, 0 to 360, of recordings with angle = \"feed\"");
+    }
+  }
   entry.ball = table.text_or("ball", "");
+  entry.ball_known_to = read_ball_uncertainty(table, entry.ball);
   auto test = read_test_file(file);
   if (!test) return test.error();
   // Those of the virtual machine; what is looked for here is what was measured.
@@ -228,6 +269,7 @@ Result<std::optional<StudyMotion>> read_motion(const TomlTable& table, bool plan
   if (std::holds_alternative<TouchWords>(test->words)) setup->instrument.noise /= 2.0;  // two sd
   auto motion = std::visit(TestReader(entry, *setup), test->words);
   if (!motion) return refused(table, *test, motion.error());
+  motion->ball_known_to = entry.ball_known_to;
   return std::optional(StudyMotion{std::move(setup->machine), *std::move(motion)});
 }
 

@@ -39,6 +39,22 @@ Result<MotionSetup> setup_of_job(const ProbeWords& words, const Job& job,
   return setup;
 }
 
+// What only simulated touches have.
+std::optional<Diagnostic> without_effect(const ProbeWords& words) {
+  if (words.measured.empty()) return std::nullopt;
+  for (const auto& [option, is_given] : {std::pair{"--noise", !words.noise.empty()},
+                                         {"--setup", !words.setup.empty()},
+                                         {"--pretravel", !words.lobes.constant.empty()},
+                                         {"--lobe", !words.lobes.amplitude.empty()}}) {
+    if (!is_given) continue;
+    return error(
+        "conflicting-options"_id,
+        fmt::format("{} is of simulated touches, --measured gives those of a machine", option),
+        "leave one of them out");
+  }
+  return std::nullopt;
+}
+
 Result<std::vector<AxisPositions>> poses_of_words(const ProbeWords& words, const Job& job) {
   if (words.at.empty()) return std::vector{trials::upright_position(job.machine, job.piece)};
   return pose_list(job.machine, words.at, "--at");
@@ -47,6 +63,7 @@ Result<std::vector<AxisPositions>> poses_of_words(const ProbeWords& words, const
 }  // namespace
 
 Result<MotionAnswer> probe_answer(const ProbeWords& words) {
+  if (auto problem = without_effect(words)) return *std::move(problem);
   const auto job = load_job(words.job, words.overrides, true);
   if (!job) return job.error();
   const auto commanded = trials::command_piece(job->machine, job->piece);
@@ -99,6 +116,13 @@ Result<MotionAnswer> probe_answer(const ProbeWords& words) {
   answer.document["job"] = words.job;
   add_lobes(answer, *lobes);
   add_part_findings(answer, *job, *plan, found);
+  if (!words.measured.empty()) {
+    answer.files.erase("touches.csv");  // is what was given
+    for (Diagnostic& each : touches_apart(job->piece, *plan, found.readings)) {
+      each.file = words.measured;
+      answer.warnings.push_back(std::move(each));
+    }
+  }
   if (const auto program = part_program(job->machine, job->piece, *plan)) {
     add_probing_programs(answer, *program);
   } else {

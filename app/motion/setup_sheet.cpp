@@ -162,9 +162,18 @@ std::optional<Diagnostics> add_setup_sheet(MotionAnswer& answer, const SetupShee
   if (*clearance) {
     nearest = fmt::format("{:.1f} mm between {} and {}, at {:.4g} deg", (*clearance)->distance,
                           (*clearance)->first, (*clearance)->second,
-                          (*clearance)->parameter * kDegPerRad);
+                          as_stated((*clearance)->parameter * kDegPerRad));
   }
   row("nearest approach", nearest);
+  if (const double least_angle = least_angle_at_stem(machine, test, pass);
+      least_angle < kBarBesideStem) {
+    answer.warnings.push_back(warning(
+        "bar-along-stem"_id,
+        fmt::format("the bar comes within {:.3g} deg of the stem of its own spindle ball, above "
+                    "which the spindle is",
+                    least_angle * kDegPerRad),
+        "capture less (--angles): upright circles are usually run from -20 to 200 deg"));
+  }
   table.note =
       "The bar is mounted 1.5 mm too long, where the program stops. Travels are those of the pass.";
   if (*clearance && !(*clearance)->spindle) {

@@ -20,8 +20,14 @@ std::string list_text(const std::vector<double>& numbers) {
 }
 
 // "x,y,z" or "0,30,60" of a list; empty where there is none.
-std::string list_or(const TomlTable& table, std::string_view key, std::string fallback = {}) {
-  return table.has(key) ? list_text(table.numbers(key)) : std::move(fallback);
+std::string list_or(const TomlTable& table, std::string_view key,
+                    const std::string& fallback = {}) {
+  if (!table.has(key)) return fallback;
+  const auto numbers = table.numbers(key);
+  if (numbers.empty()) {
+    table.fail(key, "out-of-range"_id, "the list is empty", "numbers, or leave it out");
+  }
+  return list_text(numbers);
 }
 std::string list_at(const TomlTable& table, std::string_view key) {
   return list_text(table.numbers(key));

@@ -29,6 +29,12 @@ std::string vector_text(const Vec3& v, double factor, int decimals) {
                      fixed_decimal(v.z() * factor, decimals));
 }
 
+// "EXC", not "EX0C" or "dx_AY".
+bool is_of_motion(const kinematics::ErrorEntry& entry) {
+  constexpr std::size_t kLetters = 3;
+  return entry.grid != nullptr || entry.name.size() == kLetters;
+}
+
 }  // namespace
 
 Result<MotionAnswer> vectors_answer(const MotionWords& words) {
@@ -40,6 +46,17 @@ Result<MotionAnswer> vectors_answer(const MotionWords& words) {
                  fmt::format("machine {} has no rotary axes", setup->machine.name()));
   }
   MotionAnswer answer = answer_of("vectors", "Kinematic vectors of the rotary axes", *setup);
+  for (const kinematics::ErrorEntry& entry : setup->entries) {
+    if (!is_of_motion(entry)) continue;
+    answer.warnings.push_back(warning(
+        "error-not-used"_id,
+        fmt::format(
+            "{} is an error of motion, which changes along its axis: the lines are those of "
+            "the location errors alone",
+            entry.name),
+        "a table of the control for each axis takes errors of motion; frustum identify states "
+        "location errors"));
+  }
   TextTable table({"axis", "of the", "point mm", "off by um", "direction", "off by urad"});
   report::MotionTable shown{
       .heading = "Lines of the rotary axes, all axes at zero",

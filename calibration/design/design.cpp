@@ -243,13 +243,13 @@ class Enumeration {
   [[nodiscard]] double bits_of(const DesignChoice& choice) const {
     Set set = 0;
     for (const std::size_t block : choice.blocks) set |= 1U << block;
-    const Eigen::Index free = size_.size();
     const std::vector<Eigen::Index> wanted = places(true);
-    const Eigen::MatrixXd after =
-        inverse_of(information_of(set) - priors_ + Eigen::MatrixXd::Identity(free, free));
+    Eigen::MatrixXd information = information_of(set);
+    information(wanted, wanted) -= priors_(wanted, wanted);
+    for (const Eigen::Index k : wanted) information(k, k) += 1.0;  // each within its size before
     double bits = 0.0;
-    for (const double left : symmetric_eigenvalues(after(wanted, wanted))) {
-      bits -= 0.5 * std::log2(std::clamp(left, 1e-300, 1.0));
+    for (const double after : symmetric_eigenvalues(of_interest(information))) {
+      bits += 0.5 * std::log2(std::max(after, 1.0));
     }
     return bits;
   }
@@ -261,7 +261,10 @@ class Enumeration {
     const SymmetricEigen eigen = symmetric_eigen(information(others, others));
     const Eigen::MatrixXd cross = information(wanted, others) * eigen.vectors;
     Eigen::MatrixXd left = information(wanted, wanted);
-    const double nothing = 1e-12 * std::max(eigen.values.maxCoeff(), 0.0);
+    // Rounding: of products within the others' own block, and of gains (1e-10 of the largest one)
+    // in rows that see none of the others.
+    const double nothing =
+        std::max({1e-12 * eigen.values.maxCoeff(), 1e-20 * information.diagonal().maxCoeff(), 0.0});
     for (Eigen::Index k = 0; k < eigen.values.size(); ++k) {
       if (eigen.values[k] <= nothing) continue;  // no row answers to it
       left -= cross.col(k) * cross.col(k).transpose() / eigen.values[k];

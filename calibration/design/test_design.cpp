@@ -111,10 +111,7 @@ Result<TestDesign> test_design(const kinematics::Machine& machine,
   const std::vector<Unknown> of_pieces = unknowns;
   std::vector<MeasuredMotion> tests;
   for (const CandidateMotion& each : motions) tests.push_back(each.motion);
-  for (Unknown ball : ball_unknowns(tests)) {
-    ball.prior = Prior{0.0, options.ball};
-    unknowns.push_back(std::move(ball));
-  }
+  for (Unknown& ball : ball_unknowns(tests)) unknowns.push_back(std::move(ball));
   TestDesign design{.unknowns = unknowns};
   Catalogue catalogue{.observations = {.unknowns = unknowns}};
   if (auto problem = add_pieces(catalogue, machine, pieces, of_pieces, causes, times)) {

@@ -2,9 +2,9 @@
 // identified.
 //
 // Model    : design() over the pieces and tests of a study, each a block of its rows, each with its
-//            hours. The offset of the ball in the spindle is known to `ball`, one standard
-//            deviation, beforehand: without that no set of tests on a table would identify the
-//            position of its first axis
+//            hours. The offset of the ball in the spindle is an unknown that is not asked for, as
+//            frustum identify takes it: on a table no set of tests separates it from the position
+//            of the first axis, unless something is known of the ball beforehand
 // Units    : mm, rad; h
 // Shape    : every subset of at most kMostBlocks pieces and tests
 // Errors   : those of planned_observations(), observations_of() and design(); one that is required
@@ -27,7 +27,6 @@ struct TestDesignOptions {
   DesignCriterion criterion = DesignCriterion::d_optimal;
   std::vector<std::string> required{};     // in every set
   std::map<std::string, double> limits{};  // largest standard deviation wanted, by unknown
-  double ball = 0.03;                      // mm
   std::optional<double> budget{};          // h
 };
 

@@ -204,8 +204,14 @@ std::vector<Unknown> ball_unknowns(const std::vector<MeasuredMotion>& motions) {
   for (const MeasuredMotion& motion : motions) {
     if (motion.ball.empty() || std::ranges::find(known, motion.ball) != known.end()) continue;
     known.push_back(motion.ball);
+    std::optional<Prior> prior;
+    for (const MeasuredMotion& each : motions) {
+      if (each.ball == motion.ball && each.ball_known_to && !prior) {
+        prior = Prior{0.0, *each.ball_known_to};
+      }
+    }
     for (const char* axis : {"X", "Y", "Z"}) {
-      unknowns.push_back({.name = fmt::format("{} {}", motion.ball, axis)});
+      unknowns.push_back({.name = fmt::format("{} {}", motion.ball, axis), .prior = prior});
     }
   }
   return unknowns;

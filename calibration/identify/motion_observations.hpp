@@ -19,6 +19,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ namespace frustum::calibration {
 struct MeasuredMotion {
   std::string name{};
   std::string ball{};  // tests with the same one share ds; empty: ds is zero or does not matter
+  std::optional<double> ball_known_to{};  // standard deviation of each component of ds beforehand
   double tool_length = 0.0;
   // Where each reading is taken, and along what it sees the tip move.
   std::vector<kinematics::AxisState> at{};
@@ -61,7 +63,8 @@ struct MotionObservations {
                                             const kinematics::GeometricErrors& errors,
                                             const Vec3& ds, int rounds = 3);
 
-// Three unknowns, X, Y and Z in the frame of the tool, for each ball of the tests.
+// Three unknowns, X, Y and Z in the frame of the tool, for each ball of the tests; what is known of a
+// ball beforehand is what the first test that says it says.
 [[nodiscard]] std::vector<Unknown> ball_unknowns(const std::vector<MeasuredMotion>& motions);
 
 // The set-up of each test at values of the unknowns, those of the causes one by one, then the

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <map>
 
+#include "core/constants.hpp"
 #include "core/counted.hpp"
+#include "core/decimal.hpp"
 #include "instruments/traces/trace_table.hpp"
 
 namespace frustum::instruments {
@@ -14,6 +16,8 @@ namespace {
 
 // A step this much wider than the usual one is a gap.
 constexpr double kGap = 5.0;
+// Of the stroke: a run reads micrometres; the bar comes in from 1.5 mm.
+constexpr double kOutside = 0.2;
 // Overshoot of our programs.
 constexpr double kHalfTurn = 180.0 * kRadPerDeg, kSlight = 2.0 * kRadPerDeg;
 
@@ -48,6 +52,8 @@ class TraceReader {
   std::optional<Diagnostics> read(CircleTraces& all) {
     if (auto problem = read_notes(all)) return problem;
     plane_ = all.plane;
+    length_ = all.length;
+    feed_ = all.feed;
     if (auto problem = choose_columns(all)) return Diagnostics{*std::move(problem)};
     Runs runs;
     if (auto problem = read_rows(all.length, runs)) return problem;
@@ -74,8 +80,9 @@ class TraceReader {
 
  private:
   // A number that the file states must be that of the words and of other files.
-  std::optional<Diagnostics> agree(std::string_view key, std::optional<double>& known) {
-    const auto stated = table_.number_note(key);
+  std::optional<Diagnostics> agree(std::string_view key, const std::vector<std::string>& units,
+                                   std::optional<double>& known) {
+    const auto stated = table_.number_note(key, units);
     if (!stated) return stated.error();
     if (!*stated) return std::nullopt;
     if (known && std::abs(*known - **stated) > 1e-6) {
@@ -90,9 +97,9 @@ class TraceReader {
 
   std::optional<Diagnostics> read_notes(CircleTraces& all) {
     std::optional<double> length = all.length > 0.0 ? std::optional(all.length) : words_.length;
-    if (auto problem = agree("radius", length)) return problem;
-    if (auto problem = agree("feed", all.feed)) return problem;
-    if (auto problem = agree("temperature", all.temperature)) return problem;
+    if (auto problem = agree("radius", {"mm"}, length)) return problem;
+    if (auto problem = agree("feed", {"mm/min"}, all.feed)) return problem;
+    if (auto problem = agree("temperature", {"degC", "°C", "C"}, all.temperature)) return problem;
     if (length) all.length = *length;
     const auto plane = table_.note("plane");
     if (!plane) return std::nullopt;
@@ -100,6 +107,14 @@ class TraceReader {
     if (!named) {
       return Diagnostics{table_.placed(
           error("unknown-choice"_id, fmt::format("'{}' is no plane", plane->value), "XY, YZ, ZX"),
+          plane->line)};
+    }
+    if (words_.of_rotary_axis) {
+      return Diagnostics{table_.placed(
+          error("contradiction"_id,
+                fmt::format("the file is of a circle in plane {}, the test turns a rotary axis",
+                            name_of(*named)),
+                "give the trace of this test"),
           plane->line)};
     }
     if (words_.plane && *words_.plane != *named) {
@@ -130,6 +145,15 @@ class TraceReader {
     if (auto problem = one_of({"radial_um", "reading_um", "radial_mm", "length_mm"}, reading_))
       return problem;
     by_time_ = place_ == "time_s";
+    const bool of_times = words_.marks || words_.capture.lo != CircleTraceWords{}.capture.lo ||
+                          words_.capture.hi != CircleTraceWords{}.capture.hi;
+    if (!by_time_ && of_times) {
+      return table_.placed(error("angles-stated"_id,
+                                 "the file has angles: --angle feed, --overshoot and --capture are "
+                                 "of recordings by time",
+                                 "leave them out, or give a column time_s"),
+                           table_.header_line());
+    }
     if (reading_ == "length_mm" && !(all.length > 0.0)) {
       return table_.placed(error("length-unknown"_id, "lengths need the nominal length of the bar",
                                  "give --length, or a comment \"# radius 150\""),
@@ -143,7 +167,7 @@ class TraceReader {
           run->line);
     }
     if (run_ || table_.has("run")) return std::nullopt;
-    if (words_.sense_may_be_missing) {
+    if (words_.of_rotary_axis) {
       run_ = rises() ? Sense::ccw : Sense::cw;
       return std::nullopt;
     }
@@ -206,12 +230,34 @@ class TraceReader {
     }
     if (samples.size() < 3) return true;  // which check() tells
     if (words_.marks) return spread_between_marks(sense, samples);
+    if (comes_in_and_goes_out(samples)) {
+      problems_.push_back(table_.placed(
+          error(
+              "marks-in-recording"_id,
+              fmt::format("the {} run begins {:g} mm and ends {:g} mm from the nominal length, as "
+                          "a bar that comes in and goes out",
+                          name_of(sense), samples.front().deviation, samples.back().deviation),
+              "angle feed finds the circle between feed-in and feed-out; or leave their samples "
+              "out"),
+          samples.front().line));
+      return false;
+    }
     for (Sample& each : samples) {
       const double share = (each.place - first) / (last - first);
       each.place =
           sense == Sense::ccw ? arc.lo + share * arc.width() : arc.hi - share * arc.width();
     }
     return true;
+  }
+
+  // The recording is longer than the circle: outside at both ends, inside all the way between.
+  [[nodiscard]] bool comes_in_and_goes_out(const std::vector<Sample>& samples) const {
+    const auto is_outside = [&](const Sample& each) {
+      return std::abs(each.deviation) > kOutside * words_.stroke;
+    };
+    const auto tenth = static_cast<std::ptrdiff_t>(samples.size() / 10);
+    return is_outside(samples.front()) && is_outside(samples.back()) && tenth > 0 &&
+           std::none_of(samples.begin() + tenth, samples.end() - tenth, is_outside);
   }
 
   // When the bar has come in: where the ramp of samples outside, `first` to `last`, would be at the
@@ -235,11 +281,19 @@ class TraceReader {
   // Of a recording from before the feed-in to after the feed-out: times to angles, evenly over
   // capture and overshoot; what is not of the capture is left out.
   bool spread_between_marks(Sense sense, std::vector<Sample>& samples) {
-    // A run reads micrometres; the bar comes in from 1.5 mm.
-    const double outside = 0.2 * words_.stroke;
+    const double outside = kOutside * words_.stroke;
     const auto in_run = [&](const Sample& each) { return std::abs(each.deviation) <= outside; };
     const auto begin = std::ranges::find_if(samples, in_run);
     const auto end = std::find_if(samples.rbegin(), samples.rend(), in_run).base();
+    if (begin == samples.end()) {
+      problems_.push_back(table_.placed(
+          error("stroke-exceeded"_id,
+                fmt::format("the {} run never comes within {:g} mm of the nominal length",
+                            name_of(sense), outside),
+                "check --length and the unit of the column"),
+          samples.front().line));
+      return false;
+    }
     const auto into = static_cast<std::size_t>(begin - samples.begin()),
                out = static_cast<std::size_t>(end - samples.begin());
     const auto from = time_of_mark(samples, ramp_before(samples, into), into);
@@ -247,8 +301,9 @@ class TraceReader {
     if (!from || !to || !(*to > *from)) {
       problems_.push_back(table_.placed(
           error("marks-missing"_id,
-                fmt::format("the {} run has no {}: three samples or more beyond {:g} mm",
-                            name_of(sense), from ? "feed-out" : "feed-in", outside),
+                fmt::format("the {} run has no {}: three samples or more beyond {:g} mm that move "
+                            "at more than {:g} mm/s",
+                            name_of(sense), from ? "feed-out" : "feed-in", outside, kStands),
                 "record from before the bar comes in to after it has gone out; without both the "
                 "times are spread over the capture: leave --angle feed out"),
           samples.front().line));
@@ -257,6 +312,10 @@ class TraceReader {
     const auto& arc = words_.capture;
     const double over = words_.overshoot.value_or(plane_ == Plane::XY ? kHalfTurn : kSlight);
     const double whole = arc.width() + 2.0 * over;
+    if (auto problem = other_feed(sense, whole, *to - *from, samples.front().line)) {
+      problems_.push_back(*std::move(problem));
+      return false;
+    }
     std::vector<Sample> kept;
     for (Sample each : samples) {
       const double turned = whole * (each.place - *from) / (*to - *from) - over;
@@ -276,6 +335,23 @@ class TraceReader {
     samples = std::move(kept);
     return !samples.empty();
   }
+  // A recording whose time is not that of the arc at the feed that it states: it stands, or runs
+  // slower, somewhere between the marks.
+  [[nodiscard]] std::optional<Diagnostic> other_feed(Sense sense, double arc, double time,
+                                                     int line) const {
+    constexpr double kOff = 0.1;  // that acceleration does not come to
+    if (!feed_ || !(*feed_ > 0.0) || !(length_ > 0.0)) return std::nullopt;
+    const double expected = arc * length_ / (*feed_ / kSecondsPerMinute);
+    if (std::abs(time - expected) <= kOff * expected) return std::nullopt;
+    return table_.placed(
+        error("time-mismatch"_id,
+              fmt::format("the {} run takes {:.4g} s between its marks, {:g} deg at {:g} mm/min "
+                          "take {:.4g} s",
+                          name_of(sense), time, as_stated(arc * kDegPerRad), *feed_, expected),
+              "leave pauses between feed-in, circle and feed-out out; check feed, --capture and "
+              "--overshoot"),
+        line);
+  }
   // The bar stands before it comes in and after it has gone out: the ramp is what moves.
   static std::size_t ramp_before(const std::vector<Sample>& samples, std::size_t into) {
     std::size_t first = into;
@@ -287,8 +363,8 @@ class TraceReader {
     while (last < samples.size() && moves(samples[last - 1], samples[last])) ++last;
     return last;
   }
+  static constexpr double kStands = 0.05;  // mm/s
   static bool moves(const Sample& a, const Sample& b) {
-    constexpr double kStands = 0.05;  // mm/s
     return std::abs(b.deviation - a.deviation) > kStands * (b.place - a.place);
   }
 
@@ -337,6 +413,8 @@ class TraceReader {
   std::string place_{}, reading_{};
   bool by_time_ = false;
   Plane plane_ = Plane::XY;
+  double length_ = 0.0;
+  std::optional<double> feed_{};
   std::optional<Sense> run_{};
   Diagnostics problems_{};
 };

@@ -9,7 +9,8 @@
 // Units  : as the columns say; out: mm, rad
 // Errors : a run that is not said or there twice, angles that go back, gaps, deviations beyond the
 //          bar's stroke (a wrong unit), a length without nominal, statements that contradict each
-//          other, a recording without its marks: with file and line
+//          other, a recording without its marks, or with marks that nobody expects, or that takes
+//          another time than its feed says: with file and line
 #pragma once
 
 #include <filesystem>
@@ -32,8 +33,9 @@ struct CircleTraceWords {
   // overshoot (rad) before and after the capture: half a turn in XY, else 2 deg.
   bool marks = false;
   std::optional<double> overshoot{};
-  // A run that is not said is ccw where its angles rise, else cw.
-  bool sense_may_be_missing = false;
+  // The test turns a rotary axis: it has no plane, and a run that is not said is ccw where its
+  // angles rise, else cw.
+  bool of_rotary_axis = false;
 };
 
 struct CircleTraces {

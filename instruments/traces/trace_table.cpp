@@ -15,15 +15,27 @@
 namespace frustum::instruments {
 namespace {
 
-// "# plane XY": key and the rest of the comment.
-std::optional<std::pair<std::string, std::string>> noted(std::string_view comment) {
+struct Noted {
+  std::string key{}, value{}, next{};
+};
+
+// "# radius 150 mm": key, value and the word after it.
+std::optional<Noted> noted(std::string_view comment) {
   TextWords words(comment);
   std::string key(words.next());
   if (key.ends_with(':') || key.ends_with('=')) key.pop_back();
   std::string value(words.next());
   if (value == "=" || value == ":") value = words.next();
   if (key.empty() || value.empty()) return std::nullopt;
-  return std::pair{std::move(key), std::move(value)};
+  return Noted{std::move(key), std::move(value), std::string(words.next())};
+}
+
+// "150mm" as "150" and "mm".
+std::pair<std::string, std::string> without_unit(const TraceNote& note) {
+  const std::size_t digits = note.value.find_first_not_of("+-0123456789.,");
+  if (digits == std::string::npos || digits == 0) return {note.value, note.next};
+  if (const char e = note.value[digits]; e == 'e' || e == 'E') return {note.value, note.next};
+  return {note.value.substr(0, digits), note.value.substr(digits)};
 }
 
 std::optional<double> number_of(std::string text, bool decimal_comma) {
@@ -64,10 +76,18 @@ std::optional<TraceNote> TraceTable::note(std::string_view key) const {
   return at == notes_.end() ? std::nullopt : std::optional(at->second);
 }
 
-Result<std::optional<double>> TraceTable::number_note(std::string_view key) const {
+Result<std::optional<double>> TraceTable::number_note(std::string_view key,
+                                                      const std::vector<std::string>& units) const {
   const auto found = note(key);
   if (!found) return std::optional<double>{};
-  if (const auto value = number_of(found->value, true)) return std::optional(*value);
+  const auto [number, unit] = without_unit(*found);
+  if (!unit.empty() && std::ranges::find(units, unit) == units.end()) {
+    return placed(error("wrong-unit"_id,
+                        fmt::format("'# {} {} {}' is not in {}", key, number, unit, units.front()),
+                        fmt::format("write \"# {} NUMBER {}\"", key, units.front())),
+                  found->line);
+  }
+  if (const auto value = number_of(number, true)) return std::optional(*value);
   return placed(
       error("not-a-number"_id, fmt::format("'# {} {}' does not state a number", key, found->value)),
       found->line);
@@ -98,7 +118,7 @@ Result<TraceTable> TraceTable::parse(std::string_view text, const std::filesyste
     ++line_number;
     const auto [content, comment] = metrology::split_comment(line);
     if (const auto said = noted(comment)) {
-      table.notes_.try_emplace(said->first, TraceNote{said->second, line_number});
+      table.notes_.try_emplace(said->key, TraceNote{said->value, said->next, line_number});
     }
     std::string row(content);
     if (row.find_first_not_of(" \t") == std::string::npos) continue;

@@ -23,6 +23,7 @@ namespace frustum::instruments {
 
 struct TraceNote {
   std::string value{};
+  std::string next{};  // the word after it: a unit
   int line = 0;
 };
 
@@ -44,7 +45,9 @@ class TraceTable {
   [[nodiscard]] Result<double> number(std::size_t row, std::string_view column) const;
   // "plane" of "# plane XY".
   [[nodiscard]] std::optional<TraceNote> note(std::string_view key) const;
-  [[nodiscard]] Result<std::optional<double>> number_note(std::string_view key) const;
+  // Its number; `units`: what may follow it, that which is meant where nothing does.
+  [[nodiscard]] Result<std::optional<double>> number_note(
+      std::string_view key, const std::vector<std::string>& units) const;
 
   // With the file and a line.
   [[nodiscard]] Diagnostic placed(Diagnostic problem, int line, int column = 0) const;

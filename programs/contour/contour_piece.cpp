@@ -178,9 +178,11 @@ Result<ContourGeometry> geometry(const ContourPiece& piece) {
                   fmt::format("a contouring piece of {:g} mm is too small", size),
                   fmt::format("at least {:g} mm are needed", kLeastSize));
   }
-  if (!(piece.feed > 0.0)) {
-    return refuse("piece-feed"_id, "feed",
-                  fmt::format("the feed must be above 0 mm/min, is {:g}", piece.feed), "");
+  if (!(piece.feed >= 0.001 && piece.feed <= 1e5)) {
+    return refuse(
+        "piece-feed"_id, "feed",
+        fmt::format("the feed must be between 0.001 and 100000 mm/min, is {:g}", piece.feed),
+        "millimetres a minute, for example 600");
   }
   if (!(piece.spindle_speed >= 1.0 && piece.spindle_speed <= 1e6)) {
     return refuse("out-of-range"_id, "speed", fmt::format("{:g} 1/min", piece.spindle_speed),

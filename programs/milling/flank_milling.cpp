@@ -126,12 +126,12 @@ double length_of(const std::vector<FlankPose>& path) {
   return length;
 }
 
-NarrowestHollow narrowest_hollow(const SplineSurface& surface) {
+NarrowestHollow narrowest_hollow(const SplineSurface& surface, double v) {
   NarrowestHollow narrowest{0.0, std::numeric_limits<double>::infinity()};
   constexpr int kSteps = 1000;
   for (int i = 0; i <= kSteps; ++i) {
     const double u = static_cast<double>(i) / kSteps;
-    const double curvature = surface.at(u, 0.5).curvature_along_u();
+    const double curvature = surface.at(u, v).curvature_along_u();
     if (curvature >= 0.0 || -1.0 / curvature >= narrowest.radius) continue;
     narrowest = {u, -1.0 / curvature};
   }
@@ -139,14 +139,24 @@ NarrowestHollow narrowest_hollow(const SplineSurface& surface) {
 }
 
 std::optional<Diagnostic> does_not_fit(const SplineSurface& surface, const FlankCutter& cutter) {
-  const NarrowestHollow hollow = narrowest_hollow(surface);
-  if (cutter.radius < hollow.radius) return std::nullopt;
-  Diagnostic failure = error(
-      "cutter-does-not-fit"_id,
-      fmt::format("a cutter of radius {:g} mm does not fit into the hollow of the surface at u = "
-                  "{:.3f}: the largest radius that does is {:.3f} mm",
-                  cutter.radius, hollow.u, hollow.radius),
-      "choose a smaller cutter");
+  const NarrowestHollow middle = narrowest_hollow(surface);
+  const NarrowestHollow low = narrowest_hollow(surface, 0.0), high = narrowest_hollow(surface, 1.0);
+  const bool is_low = low.radius < high.radius;
+  const NarrowestHollow& edge = is_low ? low : high;
+  if (cutter.radius < std::min(middle.radius, edge.radius)) return std::nullopt;
+  const std::string at_edge = fmt::format("{:.3f} mm at u = {:.3f} of the edge v = {}", edge.radius,
+                                          edge.u, is_low ? 0 : 1);
+  const std::string at_middle =
+      fmt::format("{:.3f} mm at u = {:.3f} half way up", middle.radius, middle.u);
+  const std::string largest = cutter.radius < middle.radius  ? at_edge
+                              : middle.radius <= edge.radius ? at_middle
+                                                             : at_middle + ", " + at_edge;
+  Diagnostic failure =
+      error("cutter-does-not-fit"_id,
+            fmt::format("a cutter of radius {:g} mm does not fit into the hollow of the surface: "
+                        "the largest radius that does is {}",
+                        cutter.radius, largest),
+            "choose a smaller cutter");
   failure.key = "cutter";
   return failure;
 }

@@ -55,14 +55,15 @@ struct FlankPose {
 // Length of the way of the tip.
 [[nodiscard]] double length_of(const std::vector<FlankPose>& path);
 
-// Where along u the surface is most hollow, and the largest radius that fits there; infinite where
-// it is nowhere hollow.
+// Where along u the surface is most hollow at a height v, and the largest radius that fits there;
+// infinite where it is nowhere hollow.
 struct NarrowestHollow {
   double u = 0.0;
   double radius = 0.0;  // mm
 };
-[[nodiscard]] NarrowestHollow narrowest_hollow(const SplineSurface& surface);
-// Why the cutter does not fit, with u and the largest radius that does; nothing where it does.
+[[nodiscard]] NarrowestHollow narrowest_hollow(const SplineSurface& surface, double v = 0.5);
+// Why the cutter does not fit, half way up or at an edge, with u and the largest radius that does;
+// nothing where it does.
 [[nodiscard]] std::optional<Diagnostic> does_not_fit(const SplineSurface& surface,
                                                      const FlankCutter& cutter);
 

@@ -12,9 +12,70 @@ namespace {
 
 using Row = Eigen::Matrix<double, 6, 1>;
 
-struct Moved {
-  Row row = Row::Zero();
-  double distance = 0.0;
+// The distances of the points at a pose and how they change with six small motions.
+struct Linearised {
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(6, 6);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(6);
+  double sum = 0.0;  // of their squares
+
+  // By Gauss and Newton; what slides in itself is left where it is.
+  [[nodiscard]] Row step() const {
+    constexpr double kIdentified = 1e-8;
+    const SymmetricEigen eigen = symmetric_eigen(squares);
+    Row step = Row::Zero();
+    for (Eigen::Index k = 0; k < 6; ++k) {
+      if (eigen.values[k] <= kIdentified * eigen.values[5]) continue;
+      const Eigen::VectorXd way = eigen.vectors.col(k);
+      step += way.dot(right) / eigen.values[k] * way;
+    }
+    return step;
+  }
+};
+
+class FitSystem {
+ public:
+  FitSystem(const FacetSolid& nominal, std::span<const Vec3> part, const Vec3& centre, double size)
+      : nominal_(nominal), part_(part), centre_(centre), size_(size) {}
+
+  [[nodiscard]] Linearised at(const Pose& nominal_from_part) const {
+    struct Moved {
+      Row row = Row::Zero();
+      double distance = 0.0;
+    };
+    std::vector<Moved> moved(part_.size());
+    tbb::parallel_for(std::size_t{0}, part_.size(), [&](std::size_t i) {
+      const Vec3 x = nominal_from_part.point(part_[i]);
+      const FacetSolid::Nearest foot = nominal_.nearest(x);
+      Vec3 normal = nominal_.normal(foot.facet);
+      // Beside an edge the way to it is the normal.
+      const Vec3 off = x - foot.point;
+      constexpr double kOn = 1e-9;  // mm
+      if (foot.distance > kOn) normal = off / foot.distance;
+      moved[i].row << normal, (x - centre_).cross(normal) / size_;
+      moved[i].distance = off.dot(normal);
+    });
+    Linearised found;
+    for (const Moved& m : moved) {
+      found.squares += m.row * m.row.transpose();
+      found.right -= m.distance * m.row;
+      found.sum += m.distance * m.distance;
+    }
+    return found;
+  }
+
+  // About the centre; the turn in sizes.
+  [[nodiscard]] Pose moved(const Pose& pose, const Row& step) const {
+    const Vec3 turn = step.tail<3>() / size_;
+    const double angle = turn.norm();
+    const Mat3 rotation = angle > 0.0 ? rotation_about(turn / angle, angle) : Mat3::Identity();
+    return Pose{rotation, centre_ + Vec3(step.head<3>()) - rotation * centre_} * pose;
+  }
+
+ private:
+  const FacetSolid& nominal_;
+  std::span<const Vec3> part_;
+  Vec3 centre_;
+  double size_;
 };
 
 std::vector<Vec3> some_of(std::span<const Vec3> points) {
@@ -37,47 +98,30 @@ Result<MeshAlignment> laid_into(const FacetSolid& nominal, std::span<const Vec3>
   double size = 0.0;
   for (const Vec3& p : part) size = std::max(size, (p - centre).norm());
   if (!(size > 0.0)) size = 1.0;
+  const FitSystem system(nominal, part, centre, size);
   MeshAlignment found;
-  std::vector<Moved> moved(part.size());
+  Linearised here = system.at(found.nominal_from_part);
   constexpr int kMost = 200;
-  constexpr double kStill = 1e-9;  // of the size
+  constexpr double kStill = 1e-9, kSame = 1e-12;  // of the size; of the sum of squares
   for (found.rounds = 1; found.rounds <= kMost; ++found.rounds) {
-    tbb::parallel_for(std::size_t{0}, part.size(), [&](std::size_t i) {
-      const Vec3 x = found.nominal_from_part.point(part[i]);
-      const FacetSolid::Nearest foot = nominal.nearest(x);
-      Vec3 normal = nominal.normal(foot.facet);
-      // Beside an edge the way to it is the normal.
-      const Vec3 off = x - foot.point;
-      constexpr double kOn = 1e-9;  // mm
-      if (foot.distance > kOn) normal = off / foot.distance;
-      moved[i].row << normal, (x - centre).cross(normal) / size;
-      moved[i].distance = off.dot(normal);
-    });
-    Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(6, 6);
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(6);
-    double sum = 0.0;
-    for (const Moved& m : moved) {
-      squares += m.row * m.row.transpose();
-      right -= m.distance * m.row;
-      sum += m.distance * m.distance;
-    }
-    found.rms = std::sqrt(sum / static_cast<double>(part.size()));
-    // What slides in itself is left where it is.
-    constexpr double kTold = 1e-8;
-    const SymmetricEigen eigen = symmetric_eigen(squares);
-    Eigen::VectorXd step = Eigen::VectorXd::Zero(6);
-    for (Eigen::Index k = 0; k < 6; ++k) {
-      if (eigen.values[k] <= kTold * eigen.values[5]) continue;
-      const Eigen::VectorXd way = eigen.vectors.col(k);
-      step += way.dot(right) / eigen.values[k] * way;
-    }
+    found.rms = std::sqrt(here.sum / static_cast<double>(part.size()));
+    const Row step = here.step();
     if (!step.allFinite()) break;
-    const Vec3 turn = step.tail<3>() / size;
-    const double angle = turn.norm();
-    const Mat3 rotation = angle > 0.0 ? rotation_about(turn / angle, angle) : Mat3::Identity();
-    const Pose about{rotation, centre + Vec3(step.head<3>()) - rotation * centre};
-    found.nominal_from_part = about * found.nominal_from_part;
-    if (step.head<3>().norm() + size * angle <= kStill * size) return found;
+    const auto length = [](const Row& s) { return s.head<3>().norm() + s.tail<3>().norm(); };
+    // Points change facets on the way, where a whole step may lead past the least: back half way.
+    double share = 1.0;
+    for (;; share *= 0.5) {
+      if (share * length(step) <= kStill * size) return found;
+      const Pose next = system.moved(found.nominal_from_part, share * step);
+      Linearised there = system.at(next);
+      if (!(there.sum < here.sum)) continue;
+      const bool same = here.sum - there.sum <= kSame * here.sum;
+      found.nominal_from_part = next;
+      here = std::move(there);
+      found.rms = std::sqrt(here.sum / static_cast<double>(part.size()));
+      if (same) return found;
+      break;
+    }
   }
   return error("fit-not-converged"_id, "the best fit does not settle",
                "bring the part near its nominal shape first, or check that it is the same part");

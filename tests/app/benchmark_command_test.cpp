@@ -121,7 +121,15 @@ TEST_F(BenchmarkSystem, ScoresRefuseRowsWithTheirPlace) {
     const double own = std::sqrt(2.0) - 1.0;
     EXPECT_NEAR(points["skill"].get<double>(), 1.0 - (own + 30.0) / 6.0, 1e-9);
   }
+  EXPECT_NE(scored("q1,1,1\n").err.find("1 question without a row: q2"), std::string::npos);
+  fs::create_directories(folder_ / "s/m99");
+  EXPECT_NE(scored("q1,1,1\n").err.find("m99: warning: no machine whose answers are known"),
+            std::string::npos);
+  fs::remove(folder_ / "s/m99");
   for (const auto& [rows, place] : {std::pair{"q1,1,0\n", "predictions.csv:2:6"},
+                                    {"q1,nan,0\n", "predictions.csv:2:8"},
+                                    {"q1,1e308,1\n", "predictions.csv:2:4"},
+                                    {"q1,1,1e-320\n", "predictions.csv:2:6"},
                                     {"q1,1,1\nq9,1,1\n", "predictions.csv:3:1"},
                                     {"q1,1,1\nq1,1,1\n", "predictions.csv:3:1"},
                                     {"q1,one,1\n", "predictions.csv:2:4"}}) {

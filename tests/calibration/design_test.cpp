@@ -239,7 +239,7 @@ TEST(StepDesign, TheChoiceUnderABudgetIsThatOfSearchingEverySet) {
   EXPECT_FALSE(design(o, blocks_of(o), options));
 }
 
-TEST(StepDesign, BitsAreWhatIsToldOfTheUnknownsOfInterest) {
+TEST(StepDesign, BitsAreOfTheUnknownsOfInterest) {
   Observations o;
   o.unknowns = {{"p", false, {}, {}}, {"q", false, Prior{0.0, 0.015}, {}}};
   o.rows = {{"sum", "A", false}, {"p", "B", false}};
@@ -252,12 +252,17 @@ TEST(StepDesign, BitsAreWhatIsToldOfTheUnknownsOfInterest) {
   ASSERT_TRUE(result);
   EXPECT_NEAR(result->alone[0].bits, 0.5 * std::log2(1.0 + 2.0 * a), 1e-9);
   EXPECT_NEAR(result->alone[1].bits, 0.5 * std::log2(1.0 + a), 1e-9);
-  // Of p alone the sum tells half a bit, whatever its noise.
+  // Of p alone the sum gives half a bit, whatever its noise; none where q may be anything.
   DesignOptions options;
   options.no_interest = {1};
   result = design(o, blocks, options);
   ASSERT_TRUE(result);
   EXPECT_NEAR(result->alone[0].bits, 0.5 * std::log2((1.0 + 2.0 * a) / (1.0 + a)), 1e-9);
+  EXPECT_NEAR(result->alone[1].bits, 0.5 * std::log2(1.0 + a), 1e-9);
+  o.unknowns[1].prior.reset();
+  result = design(o, blocks, options);
+  ASSERT_TRUE(result);
+  EXPECT_NEAR(result->alone[0].bits, 0.0, 1e-9);
   EXPECT_NEAR(result->alone[1].bits, 0.5 * std::log2(1.0 + a), 1e-9);
 }
 

@@ -67,5 +67,20 @@ TEST(ReversalSpikes, AreFoundInNoiseAndNotWhereNoneAre) {
   EXPECT_FALSE(none->axes[0].seen || none->axes[1].seen);
 }
 
+// An error of the position of an axis is near its ends whichever way it comes.
+TEST(ReversalSpikes, ACyclicErrorIsNone) {
+  auto traces = spiked(0.0, 0.0, 1e-4);
+  for (CircleTrace& trace : traces) {
+    for (std::size_t i = 0; i < trace.angle.size(); ++i) {
+      const double c = std::cos(trace.angle[i]);
+      trace.deviation[i] += 2e-3 * std::sin(2.0 * std::numbers::pi * kLength * c / 5.0 + 0.5) * c;
+    }
+  }
+  const auto found = reversal_spikes(traces, kLength);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_FALSE(found->axes[0].seen) << found->axes[0].height << " sd " << found->axes[0].sd;
+  EXPECT_FALSE(found->axes[1].seen) << found->axes[1].height << " sd " << found->axes[1].sd;
+}
+
 }  // namespace
 }  // namespace frustum::instruments

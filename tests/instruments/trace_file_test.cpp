@@ -300,6 +300,48 @@ TEST_F(TraceFiles, TimesBetweenTheMarksOfFeedInAndFeedOut) {
   std::string cut = "run,time_s,length_mm\n";
   for (int i = 0; i < 2000; ++i) cut += fmt::format("ccw,{},{}\n", 0.02 * i, 150.001);
   EXPECT_TRUE(fault(cut, words).starts_with("marks-missing:"));
+  // Another bar, a pause between feed-in and circle, marks that nobody said are there.
+  words.length = 149.75;
+  std::string other = "run,time_s,length_mm\n";
+  for (int i = 0; i < 2000; ++i) other += fmt::format("ccw,{},{}\n", 0.02 * i, 150.001);
+  EXPECT_TRUE(fault(other, words).starts_with("stroke-exceeded:"));
+  words.length = 150.0;
+  EXPECT_TRUE(read("# feed 1000 mm/min\n" + text, words).has_value());
+  EXPECT_TRUE(fault("# feed 1200\n" + text, words).starts_with("time-mismatch:"));
+  words.marks = false;
+  words.stroke = 2.0;
+  EXPECT_TRUE(fault(text, words).starts_with("marks-in-recording:"));
+}
+
+TEST_F(TraceFiles, OptionsOfTimesAreNotOfAngles) {
+  const std::string text = "run,angle_deg,radial_um\nccw,0,1\nccw,120,2\nccw,240,3\n";
+  CircleTraceWords words = kWords;
+  words.marks = true;
+  EXPECT_TRUE(fault(text, words).starts_with("angles-stated:"));
+  words = kWords;
+  words.capture = {0.0, 1.0};
+  EXPECT_TRUE(fault(text, words).starts_with("angles-stated:"));
+}
+
+TEST_F(TraceFiles, NumbersOfCommentsHaveTheirUnit) {
+  const std::string rows = "run,angle_deg,radial_um\nccw,0,1\nccw,120,2\nccw,240,3\n";
+  CircleTraceWords words = kWords;
+  words.length.reset();
+  for (const char* radius : {"15 cm", "6 inch", "0.15 m", "15cm"}) {
+    EXPECT_TRUE(
+        fault(std::string("# radius ") + radius + "\n" + rows, words).starts_with("wrong-unit:"))
+        << radius;
+  }
+  for (const char* radius : {"150 mm", "150mm", "150", "1.5e2"}) {
+    const auto all = read(std::string("# radius ") + radius + "\n" + rows, words);
+    ASSERT_TRUE(all.has_value()) << radius;
+    EXPECT_EQ(all->length, 150.0);
+  }
+  // A plane where a rotary axis turns.
+  words.length = 150.0;
+  words.plane.reset();
+  words.of_rotary_axis = true;
+  EXPECT_TRUE(fault("# plane XY\n" + rows, words).starts_with("contradiction:"));
 }
 
 }  // namespace

@@ -65,6 +65,40 @@ TEST(MeshAlignment, WhatSlidesInItselfStays) {
   EXPECT_NEAR(fit->nominal_from_part.point(Vec3(1, 0, 0.2)).x(), 1.0, 1e-3);
 }
 
+// Corners change facets on the way; a box has no other points.
+TEST(MeshAlignment, SettlesForABoxThatIsLarger) {
+  const auto box = [](const Vec3& low, const Vec3& high) {
+    std::vector<Vec3> corners;
+    for (int k = 0; k < 8; ++k) {
+      corners.emplace_back((k & 1) != 0 ? high.x() : low.x(), (k & 2) != 0 ? high.y() : low.y(),
+                           (k & 4) != 0 ? high.z() : low.z());
+    }
+    return corners;
+  };
+  const FacetSolid nominal(box({0, 0, 0}, {40, 30, 20}), {{0, 2, 3},
+                                                          {0, 3, 1},
+                                                          {4, 5, 7},
+                                                          {4, 7, 6},
+                                                          {0, 1, 5},
+                                                          {0, 5, 4},
+                                                          {2, 6, 7},
+                                                          {2, 7, 3},
+                                                          {0, 4, 6},
+                                                          {0, 6, 2},
+                                                          {1, 3, 7},
+                                                          {1, 7, 5}});
+  ASSERT_GT(nominal.volume(), 0.0);
+  for (const Vec3& shift : {Vec3(0, 0, 0), Vec3(0.003, -0.002, 0.001), Vec3(0.3, 0.1, -0.2)}) {
+    const auto part = box(shift, shift + Vec3(40.02, 30.02, 20.02));
+    const auto fit = laid_into(nominal, part);
+    ASSERT_TRUE(fit) << to_string(fit.error().front());
+    // All corners 10 um out in X, Y and Z.
+    EXPECT_NEAR(fit->rms, 0.01 * std::sqrt(3.0), 1e-6);
+    EXPECT_NEAR((fit->nominal_from_part.point(part[0]) - Vec3(-0.01, -0.01, -0.01)).norm(), 0.0,
+                1e-5);
+  }
+}
+
 TEST(MeshAlignment, RefusesNothing) {
   EXPECT_EQ(laid_into(ellipsoid(6, 8), {}).error().front().id, "too-few-points"_id);
 }

@@ -278,15 +278,36 @@ TEST_F(MotionIdentifySystem, DesignChoosesTests) {
   EXPECT_LT(doc["best_of_size"]["4"]["standard_deviations"]["gamma_YX"].get<double>(),
             doc["smallest"]["standard_deviations"]["gamma_YX"].get<double>());
   EXPECT_EQ(run("design --study plan.toml --limit dx_AY=1nm").exit_code, 1);
-  // A ball that nobody calls exact counts as known to 30 um: no more is known then of the position
-  // of the first axis.
-  std::string usual = study;
-  for (std::size_t at = 0; (at = usual.find("ball = \"exact\"\n", at)) != std::string::npos;) {
-    usual.erase(at, std::string("ball = \"exact\"\n").size());
-  }
-  write("usual.toml", usual);
+  // Of a ball that is known to 30 um no more is known of the position of the first axis.
+  const auto with_ball = [&](const std::string& ball) {
+    std::string changed = study;
+    const std::string exact = "ball = \"exact\"\n";
+    for (std::size_t at = 0; (at = changed.find(exact, at)) != std::string::npos;) {
+      changed.replace(at, exact.size(), ball);
+      at += ball.size();
+    }
+    return changed;
+  };
+  write("usual.toml", with_ball("ball = \"one\"\nball_uncertainty = \"30um\"\n"));
   const json known = json::parse(run("design --study usual.toml --json").out);
   EXPECT_NEAR(known["smallest"]["standard_deviations"]["dx_AY"].get<double>(), 30.0, 0.1);
+  // Of one that nobody has measured it is not known at all, here as where the tests are evaluated;
+  // a study that does not ask for it is answered.
+  write("unknown.toml", with_ball(""));
+  const Outcome open = run("design --study unknown.toml --json");
+  EXPECT_EQ(open.exit_code, 1) << open.err;
+  const json none = json::parse(open.out);
+  EXPECT_FALSE(none.contains("smallest"));
+  EXPECT_TRUE(none["best_of_size"]["4"]["standard_deviations"]["dx_AY"].is_null());
+  EXPECT_TRUE(none["best_of_size"]["4"]["standard_deviations"]["beta_AY"].is_number());
+  write("unknown.toml", with_ball("") + "[unknown]\nerrors = [\"gamma_YX\"]\n");
+  EXPECT_EQ(run("design --study unknown.toml").exit_code, 0);
+  write("wrong.toml", with_ball("ball_uncertainty = \"30\"\n"));
+  EXPECT_EQ(run("design --study wrong.toml").exit_code, 2);
+  write("wrong.toml", with_ball("ball_uncertainty = \"30um\"\n") +
+                          "[[motion]]\ntest = \"XY/test.toml\"\nnoise = \"0.3um\"\n"
+                          "ball_uncertainty = \"20um\"\n");
+  EXPECT_EQ(run("design --study wrong.toml").exit_code, 2);
   EXPECT_EQ(run("design --study plan.toml --require Q").exit_code, 2);
   EXPECT_EQ(run("design").exit_code, 2);
 }

@@ -142,6 +142,14 @@ TEST_F(ProbeSystem, RotaryErrorsStayWhereTheTableStands) {
     }
     EXPECT_EQ(probes, doc["touches"].get<std::size_t>()) << file;
   }
+  // The blank comes up to Z 28 of the program while the table turns from where it is level.
+  const std::string fanuc = read(folder_ / "probed/probe.nc");
+  const std::size_t first = fanuc.find("G0 Z");
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_GT(std::stod(fanuc.substr(first + 4)), 28.0 + 10.0);
+  EXPECT_LT(first, fanuc.find("G0 B"));
+  EXPECT_LT(fanuc.find("G0 B"), fanuc.find("G0 X"));
+  EXPECT_NE(read(folder_ / "probed/probe.ngc").find("T1 M6\nG43 H1\n"), std::string::npos);
   for (const char* file : {"probe.mpf", "probe.h", "probe.a", "touches.csv", "points.csv",
                            "motion.json", "motion.html"}) {
     EXPECT_TRUE(fs::exists(folder_ / "probed" / file)) << file;
@@ -183,6 +191,23 @@ TEST_F(ProbeSystem, ALogOfTheProgramIsEvaluatedAlike) {
   ASSERT_FALSE(measured.is_null());
   EXPECT_NEAR(characteristic(measured, "boss.roundness")["on_machine"].get<double>(),
               characteristic(simulated, "boss.roundness")["on_machine"].get<double>(), 1e-5);
+  // What was given stays as it is; what only simulated touches have is refused.
+  const std::string given = "# of Monday\n" + read(folder_ / "out/touches.csv");
+  write("out/touches.csv", given);
+  EXPECT_FALSE(document(command + " --measured out/touches.csv --out out").is_null());
+  EXPECT_EQ(read(folder_ / "out/touches.csv"), given);
+  EXPECT_EQ(fault("probe boss.toml --measured out/touches.csv --noise 1um"), "conflicting-options");
+  // One touch that lies apart is named.
+  std::string apart = given;
+  const std::size_t of_five = apart.find("\n5,");
+  ASSERT_NE(of_five, std::string::npos);
+  const std::size_t x = of_five + 3;
+  const double there = std::stod(apart.substr(x));
+  apart.replace(x, apart.find(',', x) - x, fmt::format("{:.9f}", there + 0.9));
+  write("apart.csv", apart);
+  const std::string found = document(command + " --measured apart.csv")["diagnostics"].dump();
+  EXPECT_NE(found.find("touch-apart"), std::string::npos) << found;
+  EXPECT_NE(found.find("point 5"), std::string::npos) << found;
   // The points are a file for `measure`, too.
   const Outcome evaluated =
       run("measure --plan boss.plan.toml --points out/points.csv --ball-centres --json");

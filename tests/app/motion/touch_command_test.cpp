@@ -291,6 +291,10 @@ TEST_F(TouchSystem, VectorsOfTheRotaryAxes) {
   EXPECT_NEAR(c["point_off_um"][0].get<double>(), 10.0, 1e-3);
   EXPECT_NEAR(c["direction_off_urad"][0].get<double>(), 20.0, 1e-6);
   EXPECT_EQ(fault("vectors --machine three-axis"), "no-rotary-axis");
+  // Errors of motion are not in them.
+  const std::string remarks =
+      document("vectors --machine zx-yac --error EXC=10um")["diagnostics"].dump();
+  EXPECT_NE(remarks.find("error-not-used"), std::string::npos) << remarks;
 }
 
 }  // namespace
