@@ -6,10 +6,11 @@ In docs/tutorials/*.md a block
     ```sh exit=1           ... the last line ends with this exit code,
     ```text                after it, is what that printed: its lines, in this order; `...` stands for any lines, and
                            within a line for anything. Blanks count once,
-    ```python              is run after those before it, where the Python module is built.
+    ```python              is run after those before it, in the same interpreter, where the Python module is built.
 Arguments: names of tutorials, all where there are none.
 """
 
+import json
 import os
 import re
 import subprocess
@@ -55,21 +56,50 @@ def missing_line(expected, printed):
     return None
 
 
+# Runs one block a line of JSON after the other, and answers with what each printed.
+INTERPRETER = """
+import contextlib, io, json, sys, traceback
+names = {"__name__": "__main__"}
+for line in sys.stdin:
+    out, failed = io.StringIO(), False
+    with contextlib.redirect_stdout(out):
+        try:
+            exec(compile(json.loads(line), "tutorial", "exec"), names)
+        except BaseException:
+            failed = True
+            out.write(traceback.format_exc())
+    print(json.dumps([failed, out.getvalue()]), flush=True)
+"""
+
+
 class Follower:
     """One reader of one tutorial, in a folder of its own."""
 
     def __init__(self, test, folder):
-        self.test, self.folder, self.printed, self.python = test, folder, "", ""
+        self.test, self.folder, self.printed, self.python = test, folder, "", None
         self.environment = {**os.environ, "PATH": f"{folder / '.bin'}:{os.environ['PATH']}", "LC_ALL": "C.UTF-8",
                             "COLUMNS": "120"}
         (folder / ".bin").mkdir()
         (folder / ".bin" / "frustum").symlink_to(PROGRAM)
 
-    def run(self, script, interpreter, exit_code=0):
-        done = subprocess.run([*interpreter, script], cwd=self.folder, env=self.environment, text=True,
+    def run(self, script, exit_code):
+        done = subprocess.run(["bash", "-euo", "pipefail", "-c", script], cwd=self.folder, env=self.environment, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         self.test.assertEqual(done.returncode, exit_code, f"{script}\n{done.stdout}")
         self.printed = done.stdout
+
+    def run_python(self, code):
+        if self.python is None:
+            self.python = subprocess.Popen([os.environ["FRUSTUM_PYTHON"], "-c", INTERPRETER], cwd=self.folder, text=True,
+                                           env=self.environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        self.python.stdin.write(json.dumps(code) + "\n")
+        self.python.stdin.flush()
+        failed, self.printed = json.loads(self.python.stdout.readline())
+        self.test.assertFalse(failed, f"{code}\n{self.printed}")
+
+    def close(self):
+        if self.python is not None:
+            self.python.communicate()
 
     def follow(self, language, words, content):
         if "file" in words:
@@ -77,10 +107,9 @@ class Follower:
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_text(content)
         elif language == "sh":
-            self.run(content, ["bash", "-euo", "pipefail", "-c"], int(words.get("exit", 0)))
+            self.run(content, int(words.get("exit", 0)))
         elif language == "python":
-            self.python += content
-            self.run(self.python, [os.environ.get("FRUSTUM_PYTHON", sys.executable), "-c"])
+            self.run_python(content)
         elif language == "text":
             line = missing_line(content, self.printed)
             self.test.assertIsNone(line, f"not printed, or not there: {line}\nprinted was:\n{self.printed}")
@@ -93,15 +122,18 @@ class TutorialsTest(unittest.TestCase):
         for page in sorted(FOLDER.glob("*.md")):
             blocks = list(blocks_of(page.read_text()))
             needs_python = any(language == "python" for language, _, _ in blocks)
-            if wanted and page.stem not in wanted:
+            if not blocks or wanted and page.stem not in wanted:
                 continue
             if needs_python and not os.environ.get("FRUSTUM_PYTHON"):
                 print(f"{page.stem}: skipped, the Python module is not built")
                 continue
             with self.subTest(page.stem), tempfile.TemporaryDirectory() as folder:
                 follower = Follower(self, Path(folder))
-                for block in blocks:
-                    follower.follow(*block)
+                try:
+                    for block in blocks:
+                        follower.follow(*block)
+                finally:
+                    follower.close()
                 followed += 1
                 print(f"{page.stem}: {len(blocks)} blocks")
         self.assertGreater(followed, 0)
