@@ -38,6 +38,8 @@ if(TARGET frustum_mpi) # what the program loads when mpirun has started it
   install(TARGETS frustum_mpi LIBRARY DESTINATION lib/frustum)
 endif()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/machines/" DESTINATION "${FRUSTUM_INSTALL_MACHINES}")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/schemas/" DESTINATION "${CMAKE_INSTALL_DATADIR}/frustum/schemas"
+        FILES_MATCHING PATTERN "*.json" PATTERN "source" EXCLUDE)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/NOTICE"
         DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/" DESTINATION "${CMAKE_INSTALL_DOCDIR}"

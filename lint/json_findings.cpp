@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/program_version.hpp"
+
 namespace frustum::lint {
 namespace {
 
@@ -79,7 +81,7 @@ void add_troubles(Json& json, const Diagnostics& troubles) {
 }  // namespace
 
 std::string json_of(const CheckedFile& checked, const Diagnostics& troubles) {
-  Json json{{"schema", "frustum/check/1"}};
+  Json json{{"schema", "frustum/check/1"}, {"version", program_version()}};
   json.update(file_json(checked));
   add_troubles(json, troubles);
   return text_of_json(json);
@@ -89,6 +91,7 @@ std::string json_of(std::span<const CheckedFile> checked, const Diagnostics& tro
   const bool passed =
       std::ranges::all_of(checked, [](const CheckedFile& each) { return each.passed; });
   Json json{{"schema", "frustum/check-files/1"},
+            {"version", program_version()},
             {"status", status_of(passed)},
             {"counts", counts_json(counts_of(checked))},
             {"files", Json::array()}};

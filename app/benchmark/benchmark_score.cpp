@@ -12,6 +12,7 @@
 #include "core/counted.hpp"
 #include "core/csv.hpp"
 #include "core/printable_text.hpp"
+#include "core/program_version.hpp"
 #include "core/text_words.hpp"
 #include "core/whole_file.hpp"
 #include "studies/statistics/forecast_score.hpp"
@@ -382,7 +383,9 @@ Result<std::vector<MachineScore>> score_submission(const fs::path& benchmark,
 }
 
 std::string score_json(const std::vector<MachineScore>& scores) {
-  ordered_json json{{"schema", "frustum/benchmark/1"}, {"machines", ordered_json::array()}};
+  ordered_json json{{"schema", "frustum/benchmark/1"},
+                    {"version", program_version()},
+                    {"machines", ordered_json::array()}};
   for (const MachineScore& score : scores) {
     json["machines"].push_back({{"id", score.id},
                                 {"points", kind_json(score.points)},

@@ -15,6 +15,7 @@
 #include "app/command/commands.hpp"
 #include "app/view/console.hpp"
 #include "core/file_set.hpp"
+#include "core/program_version.hpp"
 #include "core/whole_file.hpp"
 
 namespace frustum::app {
@@ -91,6 +92,7 @@ int make(const BenchmarkOptions& options) {
   if (const auto written = set->write(); !written) return refuse(written.error(), options);
   if (options.json) {
     std::cout << ordered_json{{"schema", "frustum/benchmark/1"},
+                              {"version", program_version()},
                               {"files", names},
                               {"commitments", commitments}}
                      .dump(2)
@@ -134,7 +136,9 @@ std::string verified_text(const VerifiedBenchmark& found) {
 int verify(const BenchmarkOptions& options) {
   const auto found = verify_benchmark(options.folder, options.only);
   if (!found) return refuse(found.error(), options);
-  ordered_json json{{"schema", "frustum/benchmark/1"}, {"machines", ordered_json::array()}};
+  ordered_json json{{"schema", "frustum/benchmark/1"},
+                    {"version", program_version()},
+                    {"machines", ordered_json::array()}};
   for (const VerifiedMachine& machine : found->machines) {
     json["machines"].push_back({{"id", machine.id},
                                 {"commitment_holds", machine.commitment_holds},

@@ -11,6 +11,7 @@
 #include "app/command/commands.hpp"
 #include "app/job/job.hpp"
 #include "app/view/console.hpp"
+#include "core/program_version.hpp"
 #include "metrology/probing/acceptance_test.hpp"
 
 namespace frustum::app {
@@ -30,6 +31,7 @@ int test_one(const CmmOptions& options, const CmmModel& cmm) {
     // Infinite where the limit is 0: JSON has no number for it.
     const double share = report.worst_length_share();
     nlohmann::ordered_json doc{{"schema", "frustum/cmm/1"},
+                               {"version", program_version()},
                                {"passes", report.passes()},
                                {"worst_length_share", nullptr},
                                {"probing_form_um", report.probing_form * kUmPerMm},
@@ -81,6 +83,7 @@ int test_many(const CmmOptions& options, const CmmModel& cmm) {
       return std::isfinite(share) ? nlohmann::ordered_json(share) : nlohmann::ordered_json();
     };
     const nlohmann::ordered_json doc{{"schema", "frustum/cmm-series/1"},
+                                     {"version", program_version()},
                                      {"machines", options.seeds},
                                      {"passed", options.seeds - failed.size()},
                                      {"worst_length_share",

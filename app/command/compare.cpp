@@ -15,6 +15,7 @@
 #include "app/job/job_report.hpp"
 #include "app/view/console.hpp"
 #include "core/counted.hpp"
+#include "core/program_version.hpp"
 #include "core/quantile.hpp"
 #include "core/units.hpp"
 #include "metrology/cmm.hpp"
@@ -238,6 +239,7 @@ Result<Comparison> compared(const CompareOptions& options, SurfaceMesh& part, Su
 
 ordered_json json_of(const Comparison& c) {
   ordered_json json{{"schema", "frustum/compare/1"},
+                    {"version", program_version()},
                     {"points", c.points},
                     {"nominal_facets", c.nominal_facets},
                     {"aligned", c.aligned},

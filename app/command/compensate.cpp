@@ -15,6 +15,7 @@
 #include "app/view/console.hpp"
 #include "calibration/compensate/compensated_piece.hpp"
 #include "core/file_set.hpp"
+#include "core/program_version.hpp"
 #include "trials/trial.hpp"
 
 namespace frustum::app {
@@ -42,10 +43,13 @@ int report(const CompensateOptions& options, const calibration::CompensatedPiece
            const std::vector<fs::path>& files) {
   const bool reached = made.after.tip <= std::max(kLeft, kShareLeft * made.before.tip);
   if (options.json) {
-    nlohmann::ordered_json doc{
-        {"schema", "frustum/compensate/1"},   {"files", nlohmann::ordered_json::array()},
-        {"before", as_json(made.before)},     {"after", as_json(made.after)},
-        {"at_turns", as_json(made.at_turns)}, {"reached", reached}};
+    nlohmann::ordered_json doc{{"schema", "frustum/compensate/1"},
+                               {"version", program_version()},
+                               {"files", nlohmann::ordered_json::array()},
+                               {"before", as_json(made.before)},
+                               {"after", as_json(made.after)},
+                               {"at_turns", as_json(made.at_turns)},
+                               {"reached", reached}};
     for (const fs::path& file : files) doc["files"].push_back(file.string());
     std::cout << doc.dump(2) << '\n';
   } else if (!options.quiet) {

@@ -12,6 +12,7 @@
 #include "app/job/machine_setup.hpp"
 #include "app/job/nc_file.hpp"
 #include "app/view/console.hpp"
+#include "core/program_version.hpp"
 #include "parser/doubts.hpp"
 #include "post/comparing/program_difference.hpp"
 
@@ -79,6 +80,7 @@ std::string in_words(const DiffOptions& options, const post::Difference& at) {
 
 nlohmann::ordered_json as_json(const DiffOptions& options, const post::ProgramComparison& found) {
   nlohmann::ordered_json doc{{"schema", "frustum/diff/1"},
+                             {"version", program_version()},
                              {"same", found.same()},
                              {"largest_tip_um", found.largest_tip * kUmPerMm},
                              {"largest_axis_urad", found.largest_axis * kUradPerRad},

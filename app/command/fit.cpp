@@ -12,6 +12,7 @@
 #include "app/command/unit_option.hpp"
 #include "app/job/number_list.hpp"
 #include "app/view/console.hpp"
+#include "core/program_version.hpp"
 #include "core/units.hpp"
 #include "metrology/fit/association.hpp"
 #include "metrology/points/point_file.hpp"
@@ -128,6 +129,7 @@ void add_condition(ordered_json& json, const Fit& fit) {
 std::string fit_json(const FitOptions& o, const Association& found) {
   const auto& fit = found.fit;
   ordered_json json{{"schema", "frustum/fit/1"},
+                    {"version", program_version()},
                     {"element", o.element},
                     {"criterion", o.criterion},
                     {"parameters", parameters_of(fit.element)},

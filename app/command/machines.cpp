@@ -9,6 +9,8 @@
 #include "app/command/commands.hpp"
 #include "app/job/machine_files.hpp"
 #include "app/view/console.hpp"
+#include "core/decimal.hpp"
+#include "core/program_version.hpp"
 #include "kinematics/model/machine.hpp"
 
 namespace frustum::app {
@@ -23,7 +25,9 @@ struct MachinesOptions : AnswerOptions {
   std::string machine{};
 };
 
-double shown(const Joint& joint, double q) { return joint.rotary() ? q * kDegPerRad : q; }
+double shown(const Joint& joint, double q) {
+  return joint.rotary() ? as_stated(q * kDegPerRad) : q;
+}
 const char* unit(const Joint& joint) { return joint.rotary() ? "deg" : "mm"; }
 
 int list_machines(const MachinesOptions& options) {
@@ -112,6 +116,7 @@ int list_errors(const MachinesOptions& options) {
   }
   if (options.json) {
     std::cout << ordered_json{{"schema", "frustum/errors/1"},
+                              {"version", program_version()},
                               {"machine", machine->name()},
                               {"structure", machine->structure()},
                               {"axes", axes},

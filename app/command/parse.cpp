@@ -9,6 +9,7 @@
 #include "app/job/machine_setup.hpp"
 #include "app/job/nc_file.hpp"
 #include "app/view/console.hpp"
+#include "core/program_version.hpp"
 #include "parser/doubts.hpp"
 #include "parser/tool_table.hpp"
 #include "parser/writing/canonical_json.hpp"
@@ -56,8 +57,10 @@ class Tally {
   }
   [[nodiscard]] std::string json(const std::string& file, const NcFile& nc,
                                  std::uint64_t blocks) const {
-    nlohmann::ordered_json doc{
-        {"schema", "frustum/parse/1"}, {"program", file}, {"dialect", name_of(nc.program.dialect)}};
+    nlohmann::ordered_json doc{{"schema", "frustum/parse/1"},
+                               {"version", program_version()},
+                               {"program", file},
+                               {"dialect", name_of(nc.program.dialect)}};
     doc["recognised_by"] = nullptr;
     if (!nc.reason.empty()) doc["recognised_by"] = nc.reason;
     doc["blocks"] = blocks;

@@ -13,6 +13,7 @@
 #include "app/job/machine_files.hpp"
 #include "app/job/number_list.hpp"
 #include "app/view/console.hpp"
+#include "core/program_version.hpp"
 #include "kinematics/errors/error_assignment.hpp"
 #include "kinematics/model/chain.hpp"
 #include "kinematics/model/inverse.hpp"
@@ -116,6 +117,7 @@ int forward(const PoseOptions& options, const Machine& machine,
   const Vec3 turned = turn.angle() * turn.axis() * kUradPerRad;
   const std::vector<std::string> beyond = kinematics::travel_violations(machine, *q);
   ordered_json doc{{"schema", "frustum/pose/1"},
+                   {"version", program_version()},
                    {"axes", axes_json(machine, *q)},
                    {"nominal", {{"tip", numbers_json(n.tip)}, {"axis", numbers_json(n.axis)}}},
                    {"actual", {{"tip", numbers_json(a.tip)}, {"axis", numbers_json(a.axis)}}},
@@ -163,7 +165,11 @@ int inverse(const PoseOptions& options, const Machine& machine) {
                     {"singular", s.singular}});
   }
   if (options.json) {
-    std::cout << ordered_json{{"schema", "frustum/pose/1"}, {"solutions", list}}.dump(2) << '\n';
+    std::cout << ordered_json{{"schema", "frustum/pose/1"},
+                              {"version", program_version()},
+                              {"solutions", list}}
+                     .dump(2)
+              << '\n';
     return kDone;
   }
   if (options.quiet) return kDone;

@@ -12,6 +12,7 @@
 #include "app/job/nc_file.hpp"
 #include "app/view/console.hpp"
 #include "core/counted.hpp"
+#include "core/program_version.hpp"
 #include "core/whole_file.hpp"
 #include "parser/doubts.hpp"
 #include "parser/writing/motion_spelling.hpp"
@@ -89,6 +90,7 @@ int post_process(const PostOptions& options) {
   warnings = in_file(std::move(warnings), options.file);
   if (options.json) {
     nlohmann::ordered_json written_doc{{"schema", "frustum/post/1"},
+                                       {"version", program_version()},
                                        {"output", written->string()},
                                        {"dialect", parser::name_of(dialect)},
                                        {"machine", setup_words->machine.name()},

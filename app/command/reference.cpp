@@ -7,6 +7,7 @@
 #include "app/command/commands.hpp"
 #include "app/view/command_pages.hpp"
 #include "core/file_set.hpp"
+#include "core/program_version.hpp"
 #include "core/whole_file.hpp"
 
 namespace frustum::app {
@@ -40,6 +41,7 @@ int write_reference(const ReferenceOptions& options, const CommandFacts& program
   if (options.man.empty() && options.completion.empty() && options.markdown.empty()) {
     if (options.json) {
       std::cout << nlohmann::ordered_json{{"schema", "frustum/reference/1"},
+                                          {"version", program_version()},
                                           {"program", json_of(program)}}
                        .dump(1)
                 << '\n';

@@ -8,6 +8,7 @@
 #include "app/command/commands.hpp"
 #include "app/serve/report_server.hpp"
 #include "app/view/console.hpp"
+#include "core/program_version.hpp"
 
 namespace frustum::app {
 namespace {
@@ -22,7 +23,9 @@ int serve_folder(const ServeOptions& options) {
   if (!server) return refuse(server.error(), options);
   if (options.json) {
     std::cout << fmt::format(
-        "{{\"schema\": \"frustum/serve/1\", \"url\": \"http://localhost:{}/\"}}\n", server->port());
+        "{{\"schema\": \"frustum/serve/1\", \"version\": \"{}\", \"url\": "
+        "\"http://localhost:{}/\"}}\n",
+        program_version(), server->port());
   } else if (!options.quiet) {
     std::cout << fmt::format("http://localhost:{}/ shows {}; Ctrl-C ends it\n", server->port(),
                              options.folder);

@@ -18,6 +18,7 @@
 #include "app/study/study_statistics.hpp"
 #include "core/counted.hpp"
 #include "core/file_set.hpp"
+#include "core/program_version.hpp"
 #include "core/whole_file.hpp"
 
 namespace frustum::app {
@@ -112,7 +113,7 @@ std::string run_json(const StudyEnd& end, const studies::Ranks& ranks, double se
   const auto time = std::chrono::duration_cast<std::chrono::seconds>(
       std::chrono::system_clock::now().time_since_epoch());
   const ordered_json doc{{"schema", "frustum/study-run/1"},
-                         {"version", FRUSTUM_VERSION},
+                         {"version", program_version()},
                          {"host", host},
                          {"threads", threads},
                          {"ranks", ranks.count()},

@@ -14,6 +14,7 @@
 #include "app/job/machine_files.hpp"
 #include "app/view/console.hpp"
 #include "core/file_set.hpp"
+#include "core/program_version.hpp"
 #include "kinematics/errors/error_assignment.hpp"
 #include "kinematics/errors/error_ranking.hpp"
 #include "kinematics/errors/volumetric.hpp"
@@ -234,6 +235,7 @@ ordered_json document(const Study& study, const VolumetricOptions& options,
   for (const ErrorEntry& entry : study.entries) errors[entry.name] = entry.written;
   const VolumetricPoint& worst = study.volume.worst();
   ordered_json doc{{"schema", "frustum/volumetric/1"},
+                   {"version", program_version()},
                    {"machine", study.machine.name()},
                    {"structure", study.machine.structure()},
                    {"tool_length_mm", options.tool_length},

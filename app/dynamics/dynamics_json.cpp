@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/constants.hpp"
+#include "core/program_version.hpp"
 
 namespace frustum::app {
 namespace {
@@ -211,6 +212,7 @@ ordered_json identified_json(const dynamics::Identification& identified) {
 std::string dynamics_json(const DynamicsReport& report) {
   const auto& [machine, model, request, answer, modes, compared, identified] = report;
   ordered_json doc{{"schema", "frustum/dynamics/1"},
+                   {"version", program_version()},
                    {"machine", machine.name()},
                    {"structure", machine.structure()},
                    {"axes", axes_json(model, request.axes)},

@@ -8,6 +8,7 @@
 
 #include "app/job/job_report.hpp"
 #include "core/counted.hpp"
+#include "core/program_version.hpp"
 #include "report/exchange/json_report.hpp"
 
 namespace frustum::app {
@@ -168,12 +169,15 @@ bool CutResult::passes() const {
 std::string snapshot_index(const std::vector<Snapshot>& snapshots) {
   std::vector<Snapshot> beside = snapshots;
   for (Snapshot& s : beside) s.file = std::filesystem::path(s.file).filename().string();
-  return Json{{"schema", "frustum/snapshots/1"}, {"snapshots", snapshots_json(beside)}}.dump(2) +
+  return Json{{"schema", "frustum/snapshots/1"},
+              {"version", program_version()},
+              {"snapshots", snapshots_json(beside)}}
+             .dump(2) +
          '\n';
 }
 
 std::string cut_json(const CutResult& result) {
-  Json json{{"schema", "frustum/cut/1"}};
+  Json json{{"schema", "frustum/cut/1"}, {"version", program_version()}};
   if (result.surface) add_surface(json, result);
   json["until"] = state_json(result.until);
   json["finished"] = result.finished;

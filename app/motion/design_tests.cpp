@@ -13,6 +13,7 @@
 #include "app/view/shown_unit.hpp"
 #include "app/view/text_table.hpp"
 #include "calibration/design/test_design.hpp"
+#include "core/program_version.hpp"
 
 namespace frustum::app {
 namespace {
@@ -165,6 +166,7 @@ int show_test_design(const TestDesignWords& words) {
   if (!design) return refuse(design.error(), words);
   if (words.json) {
     Document doc{{"schema", "frustum/test-design/1"},
+                 {"version", program_version()},
                  {"machine", study->machine().name()},
                  {"tests", design->tests},
                  {"items", items_document(*design)}};

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/decimal.hpp"
+#include "core/program_version.hpp"
 #include "instruments/approach.hpp"
 #include "instruments/reach.hpp"
 #include "instruments/readings.hpp"
@@ -59,6 +60,7 @@ MotionAnswer answer_of(const std::string& test, const std::string& title,
   const instruments::Instrument& instrument = setup.instrument;
   MotionAnswer answer{
       .document = {{"schema", "frustum/motion/1"},
+                   {"version", program_version()},
                    {"test", test},
                    {"machine", setup.machine.name()},
                    {"structure", setup.machine.structure()},

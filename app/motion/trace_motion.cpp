@@ -11,6 +11,7 @@
 #include "app/motion/setup_found.hpp"
 #include "app/motion/touch_report.hpp"
 #include "core/counted.hpp"
+#include "core/program_version.hpp"
 #include "instruments/ball_maps.hpp"
 #include "instruments/chase_test.hpp"
 #include "instruments/touch_test.hpp"
@@ -28,7 +29,10 @@ using instruments::kSignatureTerms;
 using instruments::SignatureTerm;
 
 Document trace_head(const std::string& test, const TraceWords& words) {
-  return {{"schema", "frustum/motion/1"}, {"test", test}, {"files", words.files}};
+  return {{"schema", "frustum/motion/1"},
+          {"version", program_version()},
+          {"test", test},
+          {"files", words.files}};
 }
 
 Result<CircleTraceWords> reading_words(const TraceWords& words) {

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/program_version.hpp"
+
 namespace frustum::app {
 namespace {
 
@@ -141,6 +143,7 @@ std::string study_json(const studies::StudyResult& result) {
   }
   const ordered_json doc{
       {"schema", "frustum/study/1"},
+      {"version", program_version()},
       {"title", result.title},
       {"seed", result.seed},
       {"scheme", result.scheme},

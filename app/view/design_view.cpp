@@ -8,6 +8,7 @@
 #include "app/view/shown_unit.hpp"
 #include "app/view/text_table.hpp"
 #include "core/counted.hpp"
+#include "core/program_version.hpp"
 
 namespace frustum::app {
 namespace {
@@ -109,6 +110,7 @@ std::string design_json(const kinematics::Machine& machine, const StepDesign& de
                         const std::vector<std::string>& exact) {
   Json json;
   json["schema"] = "frustum/design/1";
+  json["version"] = program_version();
   json["machine"] = machine.name();
   json["unknowns"] = Json::array();
   for (const auto& u : design.unknowns) {

@@ -10,6 +10,7 @@
 #include "app/view/text_table.hpp"
 #include "calibration/identify/distributions.hpp"
 #include "core/counted.hpp"
+#include "core/program_version.hpp"
 #include "report/number_text.hpp"
 
 namespace frustum::app {
@@ -366,6 +367,7 @@ std::string identification_json(const Study& study, const StudyResult& result) {
   const auto& agreement = result.identification.agreement;
   Json json;
   json["schema"] = "frustum/identification/1";
+  json["version"] = program_version();
   json["title"] = study.title;
   json["machine"] = study.machine().name();
   json["complete"] = result.identification.observability.complete();

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/program_version.hpp"
 #include "core/units.hpp"
 #include "report/number_text.hpp"
 
@@ -202,6 +203,7 @@ std::string diagnostics_json(const Diagnostics& diagnostics) {
 
 std::string json_failure(const Diagnostics& diagnostics) {
   return text_of({{"schema", "frustum/failure/1"},
+                  {"version", program_version()},
                   {"status", "error"},
                   {"diagnostics", array_of(diagnostics, diagnostic_json)}});
 }
@@ -209,6 +211,7 @@ std::string json_failure(const Diagnostics& diagnostics) {
 std::string json_report(const RunReport& report) {
   Json json;
   json["schema"] = "frustum/result/1";
+  json["version"] = program_version();
   json["title"] = report.title;
   json["status"] = metrology::name_of(report.verdict());
   json["machine"] = report.machine;

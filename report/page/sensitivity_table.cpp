@@ -8,6 +8,7 @@
 #include <span>
 #include <string_view>
 
+#include "core/program_version.hpp"
 #include "report/colour_scale.hpp"
 #include "report/html/html_text.hpp"
 #include "report/html/page_bundle.hpp"
@@ -241,6 +242,7 @@ constexpr const char* kStyle = R"(
 std::string sensitivity_json(const SensitivityTable& table) {
   Json json;
   json["schema"] = "frustum/sensitivity/1";
+  json["version"] = program_version();
   json["title"] = table.title;
   json["machine"] = table.machine;
   json["method"] = table.method;

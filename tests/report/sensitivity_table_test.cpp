@@ -53,7 +53,7 @@ TEST(SensitivityJson, HasItsKeysInOrderAndOneRowACharacteristic) {
   const auto json = nlohmann::ordered_json::parse(sensitivity_json(small_table()));
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_EQ(keys, (std::vector<std::string>{"schema", "title", "machine", "method",
+  EXPECT_EQ(keys, (std::vector<std::string>{"schema", "version", "title", "machine", "method",
                                             "characteristics", "errors", "units",
                                             "characteristic_units", "matrix", "even"}));
   EXPECT_EQ(json["errors"].size(), 4U);

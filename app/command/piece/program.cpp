@@ -6,6 +6,7 @@
 #include "app/command/commands.hpp"
 #include "app/job/machine_files.hpp"
 #include "app/view/console.hpp"
+#include "core/program_version.hpp"
 #include "programs/milling/posed_program.hpp"
 
 namespace frustum::app {
@@ -18,7 +19,9 @@ int write_piece(const PieceOptions& options, const WritesPiece& write) {
   const auto written = write(*loaded, *file);
   if (!written) return refuse(written.error(), options);
   if (options.json) {
-    nlohmann::ordered_json doc{{"schema", "frustum/program/1"}, {"files", nlohmann::json::array()}};
+    nlohmann::ordered_json doc{{"schema", "frustum/program/1"},
+                               {"version", program_version()},
+                               {"files", nlohmann::json::array()}};
     for (const auto& each : *written) doc["files"].push_back(each.string());
     std::cout << doc.dump(2) << '\n';
   } else if (!options.quiet) {
