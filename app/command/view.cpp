@@ -155,7 +155,7 @@ std::vector<std::string> notes_of(const Played& played) {
 
 std::string deviation_text(const PlayedPath& path) {
   return path.by_place
-             ? "of the tip during feeds, from the nearest place of the path that is programmed, "
+             ? "of the tip, from the nearest place of the path that is programmed, "
                "with all errors, lags and vibrations of the job."
              : "of the tip, from that of the error-free machine at the same axis positions.";
 }

@@ -102,22 +102,15 @@ ToolPath path_of(const ToolPath& path, const std::vector<Kept>& kept) {
   return few;
 }
 
-// Where the error-free path is nearest to each point of a feed.
-void compare_by_place(const ToolPath& few, const ToolPath& ideal, std::vector<PathPoint>& points) {
+// Where the error-free path is nearest to each point, on rapids too.
+void compare_by_place(ToolPath few, ToolPath ideal, std::vector<PathPoint>& points) {
+  for (ToolPath* path : {&few, &ideal}) {
+    for (auto& block : path->blocks) block.kind = kinematics::PathKind::feed;
+  }
   const auto matches = kinematics::match_paths(few, ideal).matches;
-  std::size_t next = 0;
-  std::uint32_t last = std::numeric_limits<std::uint32_t>::max();
-  const auto take = [&](std::uint32_t pose) {
-    if (next >= matches.size()) return;
-    points[pose].tip = matches[next].other.pose.tip;
-    points[pose].deviation = few.poses[pose].tip - points[pose].tip;
-    ++next;
-  };
-  for (const kinematics::PathSegment& segment : few.segments) {
-    if (few.blocks[segment.block].kind != kinematics::PathKind::feed) continue;
-    if (segment.first_pose != last) take(segment.first_pose);
-    last = segment.first_pose + 1;
-    take(last);
+  for (std::size_t k = 0; k < std::min(matches.size(), points.size()); ++k) {
+    points[k].tip = matches[k].other.pose.tip;
+    points[k].deviation = few.poses[k].tip - points[k].tip;
   }
 }
 
@@ -172,9 +165,9 @@ Result<PlayedPath> played_path(const Job& job, const trials::CommandedPiece& com
   if (played.by_place) {
     kinematics::Setup measured = setup;
     for (auto& [number, tool] : measured.tools) tool.length_error = 0.0;
-    const auto ideal = kinematics::travel(job.machine, measured, commanded.program,
+    auto ideal = kinematics::travel(job.machine, measured, commanded.program,
                                           kinematics::GeometricErrors{}, {.path_bound = 1e-4});
-    compare_by_place(path_of(path, kept), ideal.path, played.points);
+    compare_by_place(path_of(path, kept), std::move(ideal.path), played.points);
   }
   for (const PathPoint& point : played.points) {
     played.largest_deviation = std::max(played.largest_deviation, point.deviation.norm());

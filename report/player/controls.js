@@ -2,7 +2,6 @@
 import {Listing} from './listing.js';
 import {lineOfPoint, lineWithMotion, pointOfLine} from './model.js';
 import {rapidColour, scaleColours} from './path.js';
-import {materials} from './machine.js';
 
 const SPEEDS = [0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10, 25, 50, 100, 250, 1000];
 const WATCHED = 90;  // s that a whole program takes at first, at most
@@ -24,11 +23,13 @@ export class Controls {
   #selects = {};
   #point = -1;
   #pressed = null;
+  #letters;
 
   constructor(player) {
     this.#player = player;
     const {element, model} = player;
     const find = (selector) => element.querySelector(selector);
+    this.#letters = player.machine.letters;
     this.#scrub = find('[data-scrub]');
     this.#time = find('[data-clock]');
     this.#play = find('[data-play]');
@@ -161,13 +162,9 @@ export class Controls {
   }
 
   #bodies(how) {
-    const player = this.#player, {machine} = materials;
+    const player = this.#player;
     if (this.#selects.machine) this.#selects.machine.value = how;
-    for (const body of player.machine.bodies) body.visible = how !== 'hidden';
-    machine.transparent = how === 'translucent';
-    machine.opacity = how === 'translucent' ? 0.16 : 1;
-    machine.depthWrite = how !== 'translucent';
-    machine.needsUpdate = true;
+    player.machine.drawBodies(how);
     player.view.render();
   }
 
@@ -209,7 +206,7 @@ export class Controls {
       read.reached.textContent = model.reached[point].toFixed(1);
     }
     read.tip.textContent = list(player.tip, 4);
-    read.axes.textContent = player.machine.letters.map(({letter, rotary, column}) => rotary
+    read.axes.textContent = this.#letters.map(({letter, rotary, column}) => rotary
         ? `${letter} ${signed(player.rotary[column] * 180 / Math.PI, 4)}°`
         : `${letter} ${signed(player.linear[column], 4)}`).join('  ');
     const micrometres = [...player.deviation].map((d) => 1000 * d);

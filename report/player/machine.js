@@ -70,16 +70,18 @@ const still = (object) => {
   return object;
 };
 
-// Bodies of one kind share a material; edges make translucent ones legible.
+// Bodies of one kind share a material; edges make translucent ones legible. What fills the screen is shaded as cheaply
+// as it can be: without a graphics card, translucent bodies of a costly material would take most of a frame.
 export const materials = {
-  machine: new three.MeshStandardMaterial({roughness: 0.7, metalness: 0}),
-  fixture: new three.MeshStandardMaterial({roughness: 0.7, metalness: 0}),
-  cutter: new three.MeshStandardMaterial({roughness: 0.45, metalness: 0.1, transparent: true, opacity: 0.82}),
-  shank: new three.MeshStandardMaterial({roughness: 0.5, metalness: 0.1}),
-  holder: new three.MeshStandardMaterial({roughness: 0.5, metalness: 0.1}),
+  machine: new three.MeshLambertMaterial(),
+  glass: new three.MeshBasicMaterial({transparent: true, opacity: 0.15, depthWrite: false}),
+  fixture: new three.MeshLambertMaterial(),
+  cutter: new three.MeshLambertMaterial({transparent: true, opacity: 0.82}),
+  shank: new three.MeshLambertMaterial(),
+  holder: new three.MeshLambertMaterial(),
   // Behind what is drawn on it.
-  part: new three.MeshStandardMaterial(
-      {roughness: 0.62, metalness: 0, side: three.DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2}),
+  part: new three.MeshLambertMaterial(
+      {side: three.DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2}),
   edges: new three.LineBasicMaterial({transparent: true, opacity: 0.55}),
 };
 
@@ -153,7 +155,11 @@ export class Machine {
     return chain[joints - 1].group;
   }
 
-  get letters() { return this.#joints.map(({letter, rotary, column}) => ({letter, rotary, column})); }
+  // X, Y, Z, then the rotary axes.
+  get letters() {
+    return this.#joints.map(({letter, rotary, column}) => ({letter, rotary, column}))
+        .sort((a, b) => a.rotary - b.rotary || (a.letter < b.letter ? -1 : 1));
+  }
 
   // Frames of all parts where the axes are; `linear` and `rotary` by their columns, mm and rad.
   pose(linear, rotary) {
@@ -206,6 +212,14 @@ export class Machine {
     if (this.#tools.has(this.#shown)) this.#tools.get(this.#shown).visible = false;
     if (this.#tools.has(number)) this.#tools.get(number).visible = true;
     this.#shown = number;
+  }
+
+  // 'translucent', 'solid' or 'hidden'.
+  drawBodies(how) {
+    for (const body of this.bodies) {
+      body.visible = how !== 'hidden';
+      if (body.isMesh) body.material = how === 'solid' ? materials.machine : materials.glass;
+    }
   }
 
   // The bed at rest, or the workpiece.

@@ -1,5 +1,6 @@
 // The tool path: one set of line segments, coloured by feed, deviation or time, drawn up to a point; the rest of it
-// faintly. Deviations are magnified where the lines are drawn, so that this costs nothing.
+// faintly. Deviations are magnified where the lines are drawn, so that this costs nothing. While it plays or turns, long
+// paths are drawn by fewer segments, which are within half a pixel of them.
 import * as three from 'three';
 
 const SCALE = [[0.16, 0.36, 0.78], [0.09, 0.55, 0.75], [0.16, 0.62, 0.47], [0.66, 0.62, 0.13], [0.87, 0.45, 0.1], [0.76, 0.15, 0.15]];
@@ -45,43 +46,73 @@ function colouring(model, kind) {
   return {limit: roundedUp(largest), unit: 'mm/min', factor: 1, ofMotion: (k) => reached[k]};
 }
 
+const MOST_DRAWN = 12000;  // segments that are drawn in full while it plays
+const SKIPPED = 48;        // points at most from one of the fewer segments' ends to the next
+
+// Points whose chords leave no point between them farther off than `tolerance`.
+function fewerPoints({count, tips, starts}, tolerance) {
+  const points = [0];
+  const near = (a, b) => {
+    const ax = tips[3 * a], ay = tips[3 * a + 1], az = tips[3 * a + 2];
+    const dx = tips[3 * b] - ax, dy = tips[3 * b + 1] - ay, dz = tips[3 * b + 2] - az;
+    const length2 = dx * dx + dy * dy + dz * dz;
+    for (let k = a + 1; k < b; ++k) {
+      const x = tips[3 * k] - ax, y = tips[3 * k + 1] - ay, z = tips[3 * k + 2] - az;
+      const t = length2 > 0 ? Math.min(Math.max((x * dx + y * dy + z * dz) / length2, 0), 1) : 0;
+      if ((x - t * dx) ** 2 + (y - t * dy) ** 2 + (z - t * dz) ** 2 > tolerance * tolerance) return false;
+    }
+    return true;
+  };
+  for (let a = 0; a + 1 < count;) {
+    let b = a + 1;
+    if (!starts[b]) {
+      while (b + 1 < count && !starts[b + 1] && b - a < SKIPPED && near(a, b + 1)) ++b;
+    }
+    points.push(b);
+    a = b;
+  }
+  return Uint32Array.from(points);
+}
+
+// Lines that share their vertices: what is done, and what is still ahead.
+class Lines {
+  constructor(places, shifts, colours, materials) {
+    this.colours = new three.BufferAttribute(colours, 3, true);
+    const place = new three.BufferAttribute(places, 3), shift = new three.BufferAttribute(shifts, 3);
+    this.objects = materials.map((material) => {
+      const geometry = new three.BufferGeometry();
+      geometry.setAttribute('position', place);
+      geometry.setAttribute('deviation', shift);
+      geometry.setAttribute('color', this.colours);
+      const object = new three.LineSegments(geometry, material);
+      object.frustumCulled = false;
+      return object;
+    });
+  }
+  // Segments [begin, now) as done, [now, end) as ahead.
+  show(begin, now, end) {
+    this.objects[0].geometry.setDrawRange(2 * begin, 2 * (now - begin));
+    this.objects[1].geometry.setDrawRange(2 * now, 2 * (end - now));
+  }
+}
+
 export class Path {
   group = new three.Group();
   magnify = {value: 1};
 
   #model;
-  #done;
-  #ahead;
+  #all;
+  #few = null;
+  #points = null;   // ends of the fewer segments
+  #isBrief = false;
+  #shown = 1;
   #current;
-  #colours;
   #projected;
   #projection = new three.Matrix4();
 
   constructor(model) {
     this.#model = model;
-    const {count, tips, deviations, starts} = model;
-    const places = new Float32Array(6 * count), shifts = new Float32Array(6 * count);
-    for (let k = 0; k < count; ++k) {
-      const from = k === 0 || starts[k] ? k : k - 1;
-      for (let i = 0; i < 3; ++i) {
-        places[6 * k + i] = tips[3 * from + i];
-        places[6 * k + 3 + i] = tips[3 * k + i];
-        shifts[6 * k + i] = deviations[3 * from + i];
-        shifts[6 * k + 3 + i] = deviations[3 * k + i];
-      }
-    }
-    this.#colours = new three.BufferAttribute(new Uint8Array(6 * count), 3, true);
-    const place = new three.BufferAttribute(places, 3), shift = new three.BufferAttribute(shifts, 3);
-    const lines = (material) => {
-      const geometry = new three.BufferGeometry();
-      geometry.setAttribute('position', place);
-      geometry.setAttribute('deviation', shift);
-      geometry.setAttribute('color', this.#colours);
-      const object = new three.LineSegments(geometry, material);
-      object.frustumCulled = false;
-      return object;
-    };
-    const material = (options) => {
+    const materials = [{}, {transparent: true, opacity: 0.28, depthWrite: false}].map((options) => {
       const made = new three.LineBasicMaterial({vertexColors: true, ...options});
       made.onBeforeCompile = (shader) => {
         shader.uniforms.magnify = this.magnify;
@@ -89,22 +120,81 @@ export class Path {
             shader.vertexShader.replace('#include <begin_vertex>', 'vec3 transformed = position + magnify * deviation;');
       };
       return made;
-    };
-    this.#done = lines(material({}));
-    this.#ahead = lines(material({transparent: true, opacity: 0.28, depthWrite: false}));
+    });
+    const {count, tips, starts} = model;
+    this.#all = this.#linesOf(count, (k) => k === 0 || starts[k] ? k : k - 1, (k) => k, materials);
+    this.group.add(...this.#all.objects);
+    if (count > MOST_DRAWN) {
+      let low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+      tips.forEach((x, i) => {
+        low[i % 3] = Math.min(low[i % 3], x);
+        high[i % 3] = Math.max(high[i % 3], x);
+      });
+      const points = fewerPoints(model, Math.hypot(...high.map((x, i) => x - low[i])) / 2000);
+      this.#points = points;
+      this.#few = this.#linesOf(points.length, (k) => k === 0 || starts[points[k]] ? points[k] : points[k - 1],
+                                (k) => points[k], materials);
+      this.group.add(...this.#few.objects);
+      this.#few.objects.forEach((object) => object.visible = false);
+    }
     const two = new three.BufferGeometry();
     two.setAttribute('position', new three.BufferAttribute(new Float32Array(6), 3).setUsage(three.DynamicDrawUsage));
     this.#current = new three.LineSegments(two, new three.LineBasicMaterial());
     this.#current.frustumCulled = false;
-    this.group.add(this.#done, this.#ahead, this.#current);
+    this.group.add(this.#current);
     this.#projected = new Float32Array(3 * count);
+  }
+
+  // Segment k from point begin(k) to point end(k).
+  #linesOf(count, begin, end, materials) {
+    const {tips, deviations} = this.#model;
+    const places = new Float32Array(6 * count), shifts = new Float32Array(6 * count);
+    for (let k = 0; k < count; ++k) {
+      const from = 3 * begin(k), to = 3 * end(k);
+      for (let i = 0; i < 3; ++i) {
+        places[6 * k + i] = tips[from + i];
+        places[6 * k + 3 + i] = tips[to + i];
+        shifts[6 * k + i] = deviations[from + i];
+        shifts[6 * k + 3 + i] = deviations[to + i];
+      }
+    }
+    return new Lines(places, shifts, new Uint8Array(6 * count), materials);
+  }
+
+  get drawnBriefly() { return this.#points?.length ?? this.#model.count; }
+
+  // Fewer segments while the picture moves, where there are many.
+  brief(isBrief) {
+    if (!this.#few || isBrief === this.#isBrief) return;
+    this.#isBrief = isBrief;
+    this.#few.objects.forEach((object) => object.visible = isBrief);
+    this.#divide();
+  }
+
+  #divide() {
+    const k = this.#shown, {count} = this.#model;
+    if (!this.#isBrief) {
+      this.#all.show(0, k, count);
+      return;
+    }
+    // The one of the fewer segments that is under way is drawn in full.
+    const points = this.#points;
+    let low = 1, high = points.length - 1;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (points[middle] < k) low = middle + 1;
+      else high = middle;
+    }
+    this.#all.show(points[low - 1] + 1, k, points[low] + 1);
+    this.#few.show(0, low, low);
+    this.#few.objects[1].geometry.setDrawRange(2 * (low + 1), 2 * (points.length - low - 1));
   }
 
   // Returns the legend: the limit of the scale, the unit, what a value is multiplied with.
   colour(kind) {
     const {count, block, blocks} = this.#model;
     const shown = colouring(this.#model, kind);
-    const colours = this.#colours.array;
+    const colours = this.#all.colours.array;
     for (let k = 0; k < count; ++k) {
       if (shown.ofMotion && blocks.rapid[block[k]]) {
         for (let i = 0; i < 6; ++i) colours[6 * k + i] = Math.round(255 * RAPID[i % 3]);
@@ -115,7 +205,19 @@ export class Path {
       colourInto(colours, 6 * k, begin / shown.limit);
       colourInto(colours, 6 * k + 3, end / shown.limit);
     }
-    this.#colours.needsUpdate = true;
+    this.#all.colours.needsUpdate = true;
+    if (this.#few) {
+      // From the colour with which the first of its motions begins to that with which the last one ends.
+      const few = this.#few.colours.array, points = this.#points;
+      for (let k = 0; k < points.length; ++k) {
+        const first = 6 * (k === 0 ? 0 : points[k - 1] + 1), last = 6 * points[k] + 3;
+        for (let i = 0; i < 3; ++i) {
+          few[6 * k + i] = colours[first + i];
+          few[6 * k + 3 + i] = colours[last + i];
+        }
+      }
+      this.#few.colours.needsUpdate = true;
+    }
     return shown;
   }
 
@@ -123,8 +225,8 @@ export class Path {
 
   // All motions before point k are done; that to it is under way and has reached x, y, z.
   showTo(k, x, y, z) {
-    this.#done.geometry.setDrawRange(0, 2 * k);
-    this.#ahead.geometry.setDrawRange(2 * k, 2 * (this.#model.count - k));
+    this.#shown = k;
+    this.#divide();
     const {tips, deviations, starts} = this.#model;
     const position = this.#current.geometry.attributes.position, magnify = this.magnify.value;
     const from = starts[k] ? 3 * k : 3 * k - 3;

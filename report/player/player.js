@@ -22,7 +22,7 @@ import {Path} from './path.js';
 
 const REACH = 10;       // px within which a click finds the path
 const PANEL_MS = 100;   // between two changes of numbers and listing while it plays
-const MARGIN = {part: 1.5, machine: 1.05};
+const MARGIN = {part: 1.2, machine: 1.05};
 
 class Player {
   constructor(element, model, machine, steps, view, tools) {
@@ -135,13 +135,15 @@ class Player {
     if (this.time >= this.model.duration) this.at(this.model.begin);
     this.playing = true;
     this.lastFrame = 0;
+    this.path.brief(true);
     this.controls.show();
     requestAnimationFrame(this.frame);
   }
   pause() {
     if (!this.playing) return;
     this.playing = false;
-    this.controls.show();
+    this.path.brief(false);
+    this.redraw();
   }
 
   frame(now) {
@@ -150,7 +152,10 @@ class Player {
     const interval = this.lastFrame > 0 ? now - this.lastFrame : 0;
     this.lastFrame = now;
     this.at(this.time + interval / 1000 * this.speed);
-    if (this.time >= this.model.duration) this.playing = false;
+    if (this.time >= this.model.duration) {
+      this.playing = false;
+      this.path.brief(false);
+    }
     if (now - this.lastPanel >= PANEL_MS || !this.playing) {
       this.lastPanel = now;
       this.controls.show();
@@ -250,11 +255,22 @@ function listenToClicks(player) {
   });
 }
 
+// Long paths are drawn by fewer segments while the view turns.
+function listenToTurns(player) {
+  const {controls, render} = player.view;
+  controls.addEventListener('start', () => player.path.brief(true));
+  controls.addEventListener('end', () => {
+    if (player.playing) return;
+    player.path.brief(false);
+    render();
+  });
+}
+
 function colourBodies(player) {
   onTheme(() => {
     const {faint, ink} = theme();
     const isDark = window.matchMedia('(prefers-color-scheme: dark)').matches;
-    materials.machine.color.set(isDark ? '#6d7c8c' : '#8795a4');
+    for (const body of [materials.machine, materials.glass]) body.color.set(isDark ? '#6d7c8c' : '#8795a4');
     materials.fixture.color.set(isDark ? '#9a7b4a' : '#b8935a');
     materials.cutter.color.set('#d9a83a');
     materials.shank.color.set('#8f979f');
@@ -273,6 +289,7 @@ function publish(player) {
     get time() { return player.time; },
     get point() { return player.point; },
     get points() { return model.count; },
+    get segmentsInMotion() { return player.path.drawnBriefly; },
     get playing() { return player.playing; },
     linesWithMotion: (text = 0) => model.ends[text].lines,
     lineOfPoint: (point) => lineOfPoint(model, point),
@@ -280,6 +297,7 @@ function publish(player) {
     seek: (seconds) => player.seek(seconds),
     seekPoint: (point, share) => player.seekPoint(point, share),
     drawAt: (seconds) => {
+      player.path.brief(true);
       player.at(seconds);
       view.render();
     },
@@ -307,6 +325,7 @@ export async function playProgram(element, data) {
   element.classList.add('live');
   player.at(model.begin);
   listenToClicks(player);
+  listenToTurns(player);
   view.show(player.boxOf('part'), MARGIN.part);
   colourBodies(player);
   player.redraw();

@@ -123,7 +123,7 @@ std::string shortcuts() {
   static constexpr std::pair<std::string_view, std::string_view> kKeys[] = {
       {"Space", "Play or pause (also K)"},
       {", and .", "The block before, the next block"},
-      {"Home and End", "Begin and end of the program (outside the 3D view: of the time line)"},
+      {"Home and End", "Begin and end of the program"},
       {"[ and ]", "Slower, faster"},
       {"L", "To the field for an NC line; Enter goes there"},
       {"P", "To the NC program: arrow keys, Page Up and Page Down go through its lines"},

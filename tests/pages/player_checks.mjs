@@ -34,6 +34,7 @@ async function checkRoundTrip({browser, expect}, page) {
 // A click on a point of the path goes to the line of that point; only points that nothing else is drawn over.
 async function checkClicks({browser, expect}, page) {
   const places = await browser.evaluate(`(() => {
+    ${view}.seek(0);  // where the workpiece is then
     document.querySelector('.view').scrollIntoView({block: 'center'});
     const places = [];
     const lines = ${view}.linesWithMotion();
