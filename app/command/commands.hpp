@@ -41,6 +41,7 @@ void add_check(Command& program);
 void add_post(Command& program);
 void add_pose(Command& program);
 void add_cut(Command& program);
+void add_view(Command& program);
 void add_cmm(Command& program);
 void add_measure(Command& program);
 void add_diff(Command& program);

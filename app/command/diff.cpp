@@ -5,12 +5,12 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
 #include "app/job/machine_setup.hpp"
 #include "app/job/nc_file.hpp"
+#include "app/job/unmeasured_tools.hpp"
 #include "app/view/console.hpp"
 #include "core/program_version.hpp"
 #include "parser/doubts.hpp"
@@ -18,8 +18,6 @@
 
 namespace frustum::app {
 namespace {
-
-constexpr double kAssumedLength = 100.0;  // mm, of tools that nobody gave a length
 
 struct DiffOptions : AnswerOptions {
   std::string first{};
@@ -34,25 +32,6 @@ struct DiffOptions : AnswerOptions {
 
 constexpr const char* kKinds[] = {"none", "tip",     "axis",  "feed",
                                   "tool", "missing", "extra", "spindle"};
-
-// Tools and lengths that the programs call and that the set-up does not have.
-std::set<int> unmeasured_tools(const kinematics::Setup& setup,
-                               std::initializer_list<std::span<const parser::Motion>> programs) {
-  std::set<int> tools;
-  for (const auto& motions : programs) {
-    for (const parser::Motion& motion : motions) {
-      int number = -1;
-      if (const auto* change = std::get_if<parser::ToolChange>(&motion.command)) {
-        if (change->tool > 0) number = change->tool;
-      } else if (const auto* length = std::get_if<parser::CompensationChange>(&motion.command)) {
-        const bool off = length->mode == parser::LengthCompensation::off || length->length;
-        if (!off) number = length->offset_number;
-      }
-      if (number >= 0 && !setup.tools.contains(number)) tools.insert(number);
-    }
-  }
-  return tools;
-}
 
 // Without a line where a program has no block there.
 std::string place_text(const std::string& program, const std::string& file, std::uint32_t line) {
@@ -110,10 +89,10 @@ int diff(const DiffOptions& options) {
   print(std::cerr, in_file(parser::doubts_of(*first), options.first));
   print(std::cerr, in_file(parser::doubts_of(*second), options.second));
   for (const int tool : unmeasured_tools(setup_words->setup, {*first, *second})) {
-    setup_words->setup.tools[tool].length = kAssumedLength;
+    setup_words->setup.tools[tool].length = kAssumedToolLength;
     std::cerr << fmt::format(
         "note: tool {} counts as {} mm long; --tool-length {}=.. says better\n", tool,
-        kAssumedLength, tool);
+        kAssumedToolLength, tool);
   }
   const post::DifferenceLimits limits{.tip = options.tip / kUmPerMm,
                                       .axis = options.axis / kUradPerRad,

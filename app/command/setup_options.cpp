@@ -1,7 +1,8 @@
-// The options by which a command takes a machine and its setup.
+// The options by which a command takes a machine, its set-up and its errors.
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
+#include "app/job/error_sources.hpp"
 #include "app/job/machine_setup.hpp"
 #include "app/view/console.hpp"
 
@@ -39,6 +40,14 @@ void add_control_options(Command& command, SetupWords& words) {
           "The unit before G20 and G21: mm or inch (default: as the machine file says, else mm, "
           "with a warning)")
       .one_of({"mm", "inch"});
+}
+
+void add_error_options(Command& command, ErrorWords& words) {
+  command.option("--error", words.errors,
+                 "NAME=VALUE, repeated; overrides the job, for example --error EB0C=30urad");
+  command.option("--errors", words.files,
+                 "Error file, or the name of a shipped one; repeated; overrides the job");
+  command.option("--draw", words.draw, "Seed: draws the errors that are written as distributions");
 }
 
 }  // namespace frustum::app

@@ -246,10 +246,8 @@ void add_proof(report::RunReport& report, const trials::PointProof& proof) {
   }
 }
 
-Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::WorkpieceAt& part,
-                                            const SurfaceRequest& request) {
-  double pitch = request.pitch;
-  const stock::BoundingBox box = part.workpiece().blank().bounds();
+Result<Mm> surface_pitch(const Job& job, const stock::BoundingBox& box, double asked) {
+  double pitch = asked;
   if (pitch <= 0.0) pitch = job.mesh_pitch;
   if (pitch <= 0.0) pitch = (box.max - box.min).maxCoeff() / 120.0;
   // A grid that the part falls through would be answered with nothing at all.
@@ -259,7 +257,15 @@ Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::Workpie
                  fmt::format("a pitch of {:g} mm is too coarse for this blank", pitch),
                  fmt::format("at most a quarter of its shortest side: {:g} mm", coarsest));
   }
-  auto mesh = stock::extract_surface(part, box, Mm{pitch});
+  return Mm{pitch};
+}
+
+Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::WorkpieceAt& part,
+                                            const SurfaceRequest& request) {
+  const stock::BoundingBox box = part.workpiece().blank().bounds();
+  const auto pitch = surface_pitch(job, box, request.pitch);
+  if (!pitch) return pitch.error();
+  auto mesh = stock::extract_surface(part, box, *pitch);
   if (mesh && request.chord > 0.0) {
     auto refined = stock::refine_surface(part, *std::move(mesh), {.chord = Mm{request.chord}});
     if (!refined) return refined.error();

@@ -28,6 +28,8 @@ struct SurfaceRequest {
   double pitch = 0.0;  // mm; 0: what the job says, or the blank's longest side / 120
   double chord = 0.0;  // mm; 0: not refined
 };
+// Of the sampling grid: what is asked for, the job's, or a hundred and twentieth of the box.
+[[nodiscard]] Result<Mm> surface_pitch(const Job& job, const stock::BoundingBox& box, double asked);
 // The surface at the part's program state with the deviation of each vertex.
 [[nodiscard]] Result<stock::SurfaceMesh> finished_surface(const Job& job,
                                                           const stock::WorkpieceAt& part,

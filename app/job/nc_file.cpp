@@ -42,6 +42,16 @@ Result<NcFile> open_nc(const std::string& file, const std::string& dialect_name)
   return nc;
 }
 
+std::string text_of_program(const parser::ProgramText& text) {
+  std::string all;
+  parser::LineReader lines(text);
+  while (!lines.at_end()) {
+    all += lines.next();
+    all += '\n';
+  }
+  return all;
+}
+
 parser::InterpreterOptions options_for(const std::string& file) {
   parser::InterpreterOptions options;
   options.search_path = {std::filesystem::path(file).parent_path()};

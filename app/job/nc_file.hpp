@@ -20,6 +20,8 @@ struct NcFile {
 };
 // `dialect` as --dialect writes it; empty: recognised.
 [[nodiscard]] Result<NcFile> open_nc(const std::string& file, const std::string& dialect);
+// Its lines, each with its end.
+[[nodiscard]] std::string text_of_program(const parser::ProgramText& text);
 // Subprograms are looked for beside the program.
 [[nodiscard]] parser::InterpreterOptions options_for(const std::string& file);
 

@@ -50,16 +50,6 @@ void leave_out_told(lint::CheckedFile& subprogram, const Told& told) {
   });
 }
 
-std::string text_of_program(const parser::ProgramText& text) {
-  std::string all;
-  parser::LineReader lines(text);
-  while (!lines.at_end()) {
-    all += lines.next();
-    all += '\n';
-  }
-  return all;
-}
-
 }  // namespace
 
 ProgramChecker::ProgramChecker(CheckSettings command_line, bool without_files, Notes note)

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/units.hpp"
 #include "report/colour_scale.hpp"
 #include "report/page/packed_array.hpp"
+#include "report/page/packed_mesh.hpp"
 
 namespace frustum::report {
 namespace {
@@ -16,35 +16,9 @@ using Json = nlohmann::ordered_json;
 
 Json colour_json(const Colour& colour) { return Json::array({colour[0], colour[1], colour[2]}); }
 
-// Positions on a grid of 2^18 steps over the longest side of the bounding box: half a micrometre
-// for a workpiece of 100 mm. Deviations as 1..65535 from -limit to +limit; 0 means "none".
+// Deviations as 1..65535 from -limit to +limit; 0 means "none".
 Json surface_json(const SurfacePicture& picture) {
-  constexpr double kGrid = 262143.0;
   constexpr double kLevels = 65534.0;
-  std::array<float, 3> low = picture.vertices.front();
-  std::array<float, 3> high = low;
-  for (const auto& vertex : picture.vertices) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], vertex[k]);
-      high[k] = std::max(high[k], vertex[k]);
-    }
-  }
-  double side = std::numeric_limits<double>::min();
-  for (std::size_t k = 0; k < 3; ++k) side = std::max(side, static_cast<double>(high[k] - low[k]));
-  const double step = side / kGrid;
-  std::vector<std::uint32_t> positions;
-  positions.reserve(picture.vertices.size() * 3);
-  for (const auto& vertex : picture.vertices) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      positions.push_back(
-          static_cast<std::uint32_t>(std::lround(static_cast<double>(vertex[k] - low[k]) / step)));
-    }
-  }
-  std::vector<std::uint32_t> corners;
-  corners.reserve(picture.triangles.size() * 3);
-  for (const auto& triangle : picture.triangles) {
-    corners.insert(corners.end(), triangle.begin(), triangle.end());
-  }
   double limit = 0.0;
   for (const auto& deviation : picture.deviation) {
     if (deviation && std::isfinite(*deviation)) {
@@ -63,17 +37,13 @@ Json surface_json(const SurfacePicture& picture) {
   for (const Colour& stop : kDeviationStops) stops.push_back(colour_json(stop));
   const bool has_deviation =
       std::any_of(levels.begin(), levels.end(), [](auto v) { return v > 0; });
-  return {{"vertices", picture.vertices.size()},
-          {"triangles", picture.triangles.size()},
-          {"origin", Json::array({low[0], low[1], low[2]})},
-          {"step", step},
-          {"positions", packed_array(positions, 3)},
-          {"corners", packed_array(corners, 3)},
-          {"deviation", has_deviation ? Json(packed_array(levels, 1)) : Json(nullptr)},
-          {"limit_um", limit * kUmPerMm},
-          {"span_um", natural_span(picture) * kUmPerMm},
-          {"stops", std::move(stops)},
-          {"no_nominal", colour_json(kNoNominalColour)}};
+  Json json = packed_mesh(picture.vertices, picture.triangles, kFineGrid);
+  json["deviation"] = has_deviation ? Json(packed_array(levels, 1)) : Json(nullptr);
+  json["limit_um"] = limit * kUmPerMm;
+  json["span_um"] = natural_span(picture) * kUmPerMm;
+  json["stops"] = std::move(stops);
+  json["no_nominal"] = colour_json(kNoNominalColour);
+  return json;
 }
 
 }  // namespace

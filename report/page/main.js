@@ -1,4 +1,6 @@
-// Turns what the report embedded: the workpiece, or the vectors of a volume. Tables and charts need no script.
+// Turns what the report embedded: the workpiece, the vectors of a volume, a program that plays. Tables and charts
+// need no script.
+import {playProgram} from '../player/player.js';
 import {drawSurface} from './surface.js';
 import {drawVolume} from './volumetric.js';
 
@@ -9,3 +11,7 @@ if (view && data.surface) {
 }
 const volume = document.querySelector('[data-volume]');
 if (volume && data.volume) drawVolume(volume, data.volume);
+const player = document.querySelector('[data-player]');
+if (player && data.player) {
+  playProgram(player, data.player).catch((failure) => console.warn(`The program cannot be played: ${failure.message}`));
+}

@@ -8,6 +8,20 @@
 #include "core/base64.hpp"
 
 namespace frustum::report {
+namespace {
+
+std::string deflated(std::span<const unsigned char> bytes) {
+  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+  std::vector<unsigned char> packed(size);
+  if (compress2(packed.data(), &size, bytes.data(), static_cast<uLong>(bytes.size()),
+                Z_DEFAULT_COMPRESSION) != Z_OK) {
+    throw std::bad_alloc();  // the only way zlib can fail with a buffer of compressBound bytes
+  }
+  packed.resize(size);
+  return base64(packed);
+}
+
+}  // namespace
 
 std::string packed_array(std::span<const std::uint32_t> values, std::size_t stride) {
   std::vector<unsigned char> planes(values.size() * 4);
@@ -18,14 +32,11 @@ std::string packed_array(std::span<const std::uint32_t> values, std::size_t stri
           static_cast<unsigned char>(difference >> (8U * plane) & 255U);
     }
   }
-  uLongf size = compressBound(static_cast<uLong>(planes.size()));
-  std::vector<unsigned char> packed(size);
-  if (compress2(packed.data(), &size, planes.data(), static_cast<uLong>(planes.size()),
-                Z_DEFAULT_COMPRESSION) != Z_OK) {
-    throw std::bad_alloc();  // the only way zlib can fail with a buffer of compressBound bytes
-  }
-  packed.resize(size);
-  return base64(packed);
+  return deflated(planes);
+}
+
+std::string packed_text(std::string_view text) {
+  return deflated({reinterpret_cast<const unsigned char*>(text.data()), text.size()});
 }
 
 }  // namespace frustum::report

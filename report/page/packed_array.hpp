@@ -9,10 +9,13 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace frustum::report {
 
 // `stride` > 0 is the number of interleaved columns: 3 for x, y, z.
 [[nodiscard]] std::string packed_array(std::span<const std::uint32_t> values, std::size_t stride);
+// Text, which is deflated and written in base64 alone.
+[[nodiscard]] std::string packed_text(std::string_view text);
 
 }  // namespace frustum::report

@@ -1,9 +1,17 @@
 // Turns back what report/page/packed_array.cpp wrote: base64, inflate, four byte planes, differences.
 
-export async function unpack(text, count, stride) {
+async function inflated(text) {
   const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate'));
-  const planes = new Uint8Array(await new Response(stream).arrayBuffer());
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+export async function unpackText(text) {
+  return new TextDecoder().decode(await inflated(text));
+}
+
+export async function unpack(text, count, stride) {
+  const planes = await inflated(text);
   const values = new Uint32Array(count);
   for (let k = 0; k < count; ++k) {
     const difference = planes[k] | planes[k + count] << 8 | planes[k + 2 * count] << 16 |

@@ -82,7 +82,7 @@ async function geometryOf(surface) {
   return {geometry, corners, deviation};
 }
 
-function addLights(scene, camera) {
+export function addLights(scene, camera) {
   scene.add(new three.HemisphereLight(0xffffff, 0x9aa2ad, 1.75));
   const key = new three.DirectionalLight(0xffffff, 1.55);
   key.position.set(-0.6, 0.9, 1);

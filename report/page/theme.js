@@ -7,6 +7,7 @@ export function theme() {
   const style = getComputedStyle(document.documentElement);
   const read = (name) => style.getPropertyValue(name).trim();
   return {
+    ink: read('--ink'),
     faint: read('--faint'),
     series: [1, 2, 3, 4, 5].map((k) => read(`--series-${k}`)),
   };

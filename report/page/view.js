@@ -53,7 +53,8 @@ function listen(element, camera, controls, render) {
 }
 
 // Scene and camera in `element`; nothing where the browser draws no 3D graphics: what is there without a script
-// remains. show(box, margin) begins: the box is in view from all sides.
+// remains. show(box, margin) begins: the box is in view from all sides; fit(box, margin) shows another one from the
+// side that was chosen last.
 export function viewIn(element) {
   let renderer;
   try {
@@ -80,19 +81,26 @@ export function viewIn(element) {
     camera.updateProjectionMatrix();
     render();
   };
+  const shown = {box: new three.Box3(), margin: 1, side: 'iso'};
+  const look = (side) => {
+    shown.side = side;
+    const center = shown.box.getCenter(new three.Vector3());
+    const back = new three.Vector3(...SIDES[side]).normalize();
+    const distance = distanceOf(shown.box, back, camera, shown.margin);
+    camera.position.copy(back).multiplyScalar(distance).add(center);
+    camera.near = distance / 100;
+    camera.far = distance * 10;
+    camera.updateProjectionMatrix();
+    controls.target.copy(center);
+    controls.update();
+    render();
+  };
+  const fit = (box, margin) => {
+    shown.box.copy(box);
+    shown.margin = margin;
+    look(shown.side);
+  };
   const show = (box, margin) => {
-    const center = box.getCenter(new three.Vector3());
-    const look = (name) => {
-      const back = new three.Vector3(...SIDES[name]).normalize();
-      const distance = distanceOf(box, back, camera, margin);
-      camera.position.copy(back).multiplyScalar(distance).add(center);
-      camera.near = distance / 100;
-      camera.far = distance * 10;
-      camera.updateProjectionMatrix();
-      controls.target.copy(center);
-      controls.update();
-      render();
-    };
     for (const button of element.closest('figure').querySelectorAll('[data-view]')) {
       button.addEventListener('click', () => look(button.dataset.view));
     }
@@ -100,7 +108,7 @@ export function viewIn(element) {
     controls.addEventListener('change', render);
     new ResizeObserver(resize).observe(element);
     resize();
-    look('iso');
+    fit(box, margin);
   };
-  return {scene, camera, canvas, render, show};
+  return {scene, camera, canvas, controls, render, show, fit};
 }

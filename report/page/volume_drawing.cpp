@@ -1,45 +1,16 @@
 #include "report/page/volume_drawing.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <vector>
 
 #include "core/units.hpp"
 #include "report/chart/svg.hpp"
+#include "report/page/oblique_view.hpp"
 
 namespace frustum::report {
 namespace {
 
 constexpr double kWidth = 900.0, kHeight = 540.0, kMargin = 24.0;  // pixels
-
-// Seen from the front right above, without perspective.
-class ObliqueView {
- public:
-  explicit ObliqueView(const std::vector<Vec3>& points) {
-    Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
-    Eigen::Array2d high = -low;
-    for (const Vec3& p : points) {
-      low = low.min(flat(p).array());
-      high = high.max(flat(p).array());
-    }
-    const Eigen::Array2d size = (high - low).max(1e-6);  // a point still has a scale
-    scale_ = std::min((kWidth - 2.0 * kMargin) / size.x(), (kHeight - 2.0 * kMargin) / size.y());
-    centre_ = 0.5 * (low + high).matrix();
-  }
-  [[nodiscard]] SvgPoint at(const Vec3& p) const {
-    const Eigen::Vector2d from_centre = scale_ * (flat(p) - centre_);
-    return {0.5 * kWidth + from_centre.x(), 0.5 * kHeight - from_centre.y()};
-  }
-
- private:
-  [[nodiscard]] Eigen::Vector2d flat(const Vec3& p) const { return {right_.dot(p), up_.dot(p)}; }
-
-  Vec3 back_ = Vec3(0.62, -1.0, 0.72).normalized();
-  Vec3 right_ = Vec3::UnitZ().cross(back_).normalized();
-  Vec3 up_ = back_.cross(right_);
-  double scale_ = 1.0;
-  Eigen::Vector2d centre_ = Eigen::Vector2d::Zero();
-};
 
 // The rows of the grid in all three directions as one line with breaks.
 std::vector<SvgPoint> rows(const ObliqueView& view, const std::vector<Vec3>& points,
@@ -76,7 +47,7 @@ std::string volume_drawing(const VolumetricPage& page) {
   for (std::size_t i = 0; i < ends.size(); ++i) ends[i] += factor * page.views.front().relative[i];
   std::vector<Vec3> all = page.places;
   all.insert(all.end(), ends.begin(), ends.end());
-  const ObliqueView view(all);
+  const ObliqueView view(all, kWidth, kHeight, kMargin);
   SvgDrawing drawing(kWidth, kHeight, "Grid of the working volume with magnified errors");
   drawing.polyline(rows(view, page.places, page.counts), "wire");
   drawing.polyline(rows(view, ends, page.counts), "wire s1 displaced");

@@ -33,7 +33,7 @@ bool is_long(const std::string& command) {
     return command.starts_with(std::string("build/frustum ") + words);
   };
   return begins("run") || begins("identify") || begins("design") || begins("cut") ||
-         begins("sensitivity") || begins("compensate");
+         begins("sensitivity") || begins("compensate") || begins("view");
 }
 
 class ReadmeSystem : public CommandLine {};

@@ -20,11 +20,13 @@ const std::map<std::string, Room>& rooms() {
       {"cutter", {4, {"body", "sweep", "search"}}},
       {"stock", {5, {"solid", "dexel", "mesh", "collision", "proof", "polyhedral", "step"}}},
       {"programs", {6, {"milling", "cone", "step", "contour", "s_piece", "surface", "motion"}}},
-      {"report", {6, {"html", "chart", "picture", "page", "exchange", "sheet"}}},
+      {"report", {6, {"html", "chart", "picture", "page", "player", "exchange", "sheet"}}},
       {"trials", {7, {"population"}}},
       {"calibration", {8, {"identify", "design", "compensate"}}},
       {"studies", {8, {"laws", "statistics", "engine", "samples", "answers"}}},
-      {"app", {9, {"job", "dynamics", "benchmark", "view", "motion", "study", "serve", "command"}}},
+      {"app",
+       {9,
+        {"job", "player", "dynamics", "benchmark", "view", "motion", "study", "serve", "command"}}},
       {"python", {.floor = 10, .is_library = false}},
   };
   return kRooms;

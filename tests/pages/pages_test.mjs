@@ -4,11 +4,13 @@
 // node pages_test.mjs FRUSTUM SOURCE_FOLDER WORK_FOLDER AXE_SCRIPT
 // PDF files stay in the work folder, with pictures unless FRUSTUM_LAWS=reduced. Exit code 77: skipped,
 // no Chromium or no axe-core.
-import {spawnSync} from 'node:child_process';
+import {spawn, spawnSync} from 'node:child_process';
+import {once} from 'node:events';
 import {existsSync, mkdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {pathToFileURL} from 'node:url';
 import {Browser, findChromium} from './chromium.mjs';
+import {checkPlayer} from './player_checks.mjs';
 
 const [frustum, source, work, axe] = process.argv.slice(2);
 const chromium = findChromium();
@@ -34,6 +36,15 @@ function run(...args) {
 // `make test` looks at a few pages of those that `make laws` looks at, and makes no others.
 const reduced = process.env.FRUSTUM_LAWS === 'reduced';
 
+// What `frustum serve` answers for the work folder; its links lead nowhere from here.
+async function indexPage() {
+  const server = spawn(frustum, ['serve', work, '--port', '0', '--json'], {stdio: ['ignore', 'pipe', 'ignore']});
+  const [line] = await once(server.stdout, 'data');
+  const answer = await fetch(JSON.parse(line).url);
+  writeFileSync(join(work, 'index-page.html'), await answer.text());
+  server.kill();
+}
+
 // Every kind of page; "judged" has one characteristic of each verdict that a CMM of 2 um gives it.
 function makePages() {
   run('program', 'cone', '--machine', 'iwf-bc', '--out', 'piece', '--chord-tolerance', '1');
@@ -55,12 +66,18 @@ function makePages() {
       'displacements=10um', '--tolerance', 'rotations=20urad', '--out', 'volumetric', '--json');
   run('program', 'step', '--machine', 'zx-yac', '--patterns', '1-a,2-a', '--out', 'sheet');
   run('motion', 'run', join(source, 'examples/ballbar/circle.toml'), '--out', 'motion', '--quiet');
+  run('view', 'piece/job.toml', '--error', 'EX0C=10um', '--error', 'EB0B=40urad', '--snapshots', '4', '--pitch', '3', '--out',
+      'player', '--quiet');
+  run('dynamics', 'iwf-bc', '--axes', 'Z=300', '--tool-length', '150', '--frf', '20:60', '--out', 'dynamics', '--json');
   const few = {
     ideal: 'ideal/report.html',
     judged: 'judged/report.html',
     volumetric: 'volumetric/volumetric.html',
     motion: 'motion/motion.html',
     sheet: 'sheet/setup.html',
+    player: 'player/view.html',
+    dynamics: 'dynamics/report.html',
+    index: 'index-page.html',
   };
   if (reduced) return few;
   run('run', join(source, 'examples/ibaraki-2010/workpiece-1/job.toml'), '--out', 'step', '--quiet');
@@ -230,6 +247,7 @@ async function checkWithoutScript(page, url) {
 
 try {
   const pages = makePages();
+  await indexPage();
   await browser.send('Network.emulateNetworkConditions',
                      {offline: true, latency: 0, downloadThroughput: 0, uploadThroughput: 0});
   for (const [page, file] of Object.entries(pages)) {
@@ -242,6 +260,7 @@ try {
     const wide = await browser.evaluate(overflow);
     expect(wide === '', page, wide);
     await checkKeyboard(page);
+    if (page === 'player') await checkPlayer({browser, expect, settled}, page);
     await violations(page, 'light');
     await violations(page, 'dark');
     await picture(`${page}-dark`);

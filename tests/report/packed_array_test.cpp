@@ -51,5 +51,17 @@ TEST(PackedArray, ComesBackAsItWent) {
   EXPECT_EQ(unpack(packed_array(values, 1), values.size(), 1), values);
 }
 
+TEST(PackedText, ComesBackAsItWent) {
+  const std::string text = "G1 X10 (Umlaut: \xC3\xA4)\r\n</script>\0\n" + std::string(5000, 'G');
+  const std::vector<unsigned char> packed = bytes_of(packed_text(text));
+  EXPECT_LT(packed.size(), 200U);
+  std::string back(text.size(), '\0');
+  uLongf size = static_cast<uLongf>(back.size());
+  EXPECT_EQ(uncompress(reinterpret_cast<unsigned char*>(back.data()), &size, packed.data(),
+                       static_cast<uLong>(packed.size())),
+            Z_OK);
+  EXPECT_EQ(back, text);
+}
+
 }  // namespace
 }  // namespace frustum::report

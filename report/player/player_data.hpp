@@ -1,0 +1,16 @@
+// What the script of the player's page reads, as JSON.
+//
+// Units : mm, rad, s; packed numbers say their step, which is 0.1 um for places, 1 nm for
+//         deviations, 0.1 urad for angles and a microsecond for times of up to an hour
+// Errors: none
+#pragma once
+
+#include <string>
+
+#include "report/player/player_page.hpp"
+
+namespace frustum::report {
+
+[[nodiscard]] std::string player_data(const PlayerPage& page);
+
+}  // namespace frustum::report
