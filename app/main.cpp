@@ -16,6 +16,6 @@ int main(int argc, char** argv) {
        add_check,      add_post,        add_diff,     add_compensate, add_compare,  add_pose,
        add_cut,        add_measure,     add_cmm,      add_fit,        add_machines, add_errors,
        add_volumetric, add_study,       add_motion,   add_dynamics,   add_history,  add_benchmark,
-       add_serve,      add_reference},
+       add_serve,      add_tools,       add_reference},
       argc, argv);
 }

@@ -5,9 +5,9 @@
 //            a moving range is below 3.267 mR. Both factors are 3 sigma for normal values that do
 //            not depend on each other (3 / d2 and D4 of two values)
 // Units    : those of the values
-// Shape    : values in the order of their dates, at least kFewestForLimits and one range fewer: with
-//            four even one far off all others widens the limits beyond itself ((n-1)^2 > 2.66 n), so
-//            that they would say nothing. A value that begins anew (after an adjustment) has no range
+// Shape    : values in the order of their dates, at least kFewestForLimits, and one range fewer:
+//            with four even one far off all others widens the limits beyond itself
+//            ((n-1)^2 > 2.66 n). A value that begins anew (after an adjustment) has no range
 // Errors   : none; nothing where there are fewer values
 // Accuracy : that of the two factors as printed, 4 digits
 // Source   : ISO 7870-2:2013, Shewhart control charts (individuals and moving range); Shewhart 1931

@@ -10,5 +10,6 @@ namespace frustum::app {
 class Command;
 
 void add_history(Command& program);
+void add_tools(Command& program);
 
 }  // namespace frustum::app
