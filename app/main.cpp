@@ -1,6 +1,7 @@
 // frustum: a virtual five-axis machine tool on the command line.
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
+#include "app/command/listing/listing_commands.hpp"
 
 int main(int argc, char** argv) {
   using namespace frustum::app;  // NOLINT: main is the whole program
@@ -11,10 +12,10 @@ int main(int argc, char** argv) {
            "Exit codes: 0 done and within tolerance, 1 a tolerance or check failed, 2 the input is "
            "wrong, 3 internal fault.",
        .version = FRUSTUM_VERSION},
-      {add_run,    add_sensitivity, add_identify, add_design,     add_program,  add_parse,
-       add_check,  add_post,        add_diff,     add_compensate, add_compare,  add_pose,
-       add_cut,    add_view,        add_measure,  add_cmm,        add_fit,      add_machines,
-       add_errors, add_volumetric,  add_study,    add_motion,     add_dynamics, add_benchmark,
-       add_serve,  add_reference},
+      {add_run,       add_sensitivity, add_identify, add_design,     add_program,  add_parse,
+       add_check,     add_post,        add_diff,     add_compensate, add_compare,  add_pose,
+       add_cut,       add_view,        add_measure,  add_cmm,        add_fit,      add_machines,
+       add_errors,    add_volumetric,  add_study,    add_motion,     add_dynamics, add_history,
+       add_benchmark, add_serve,       add_tools,    add_reference},
       argc, argv);
 }

@@ -14,8 +14,8 @@ HashedFile hashed_file(std::string role, const std::string& path, std::string_vi
   return {std::move(role), std::filesystem::path(path).filename().string(), sha256(bytes)};
 }
 
-std::string fingerprint_text(const HashedFile& file) {
-  return file.sha256.empty() ? "not known: it was read from a pipe" : file.sha256;
+std::string fingerprint_text(const HashedFile& file, const Wording& words) {
+  return file.sha256.empty() ? words("not known: it was read from a pipe") : file.sha256;
 }
 
 std::vector<Fact> stated(const metrology::ReportHeader& header) {
@@ -27,13 +27,29 @@ std::vector<Fact> stated(const metrology::ReportHeader& header) {
   return facts;
 }
 
-std::vector<Fact> made_and_measured(const Evidence& evidence) {
-  std::vector<Fact> facts = evidence.measuring;
+const std::vector<Fact>& shown_measuring(const Evidence& evidence) {
+  return evidence.measuring_shown.empty() ? evidence.measuring : evidence.measuring_shown;
+}
+
+namespace {
+
+std::vector<Fact> with_draw(std::vector<Fact> facts, const Evidence& evidence,
+                            const Wording& words) {
   if (const auto& draw = evidence.error_draw) {
-    facts.push_back({"error_draw", "Draw of the errors",
-                     fmt::format("seed {}, number {}", draw->seed, draw->index)});
+    facts.push_back({"error_draw", words("Draw of the errors"),
+                     words("seed {0}, number {1}", draw->seed, draw->index)});
   }
   return facts;
+}
+
+}  // namespace
+
+std::vector<Fact> made_and_measured(const Evidence& evidence) {
+  return with_draw(evidence.measuring, evidence, Wording());
+}
+
+std::vector<Fact> shown_made_and_measured(const Evidence& evidence, const Wording& words) {
+  return with_draw(shown_measuring(evidence), evidence, words);
 }
 
 std::vector<Fact> all_facts(const Evidence& evidence, const std::string& version) {

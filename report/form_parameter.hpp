@@ -12,20 +12,26 @@
 #include <string_view>
 
 #include "metrology/measurement.hpp"
+#include "report/wording.hpp"
 
 namespace frustum::report {
 
 // "RONp"; "highest peak" of a kind without symbols. `parameter` as plans state it: "p".
-[[nodiscard]] std::string parameter_symbol(std::string_view kind, std::string_view parameter);
+[[nodiscard]] std::string parameter_symbol(std::string_view kind, std::string_view parameter,
+                                           const Wording& words = Wording());
 // "RONp, highest peak"
-[[nodiscard]] std::string parameter_text(std::string_view kind, std::string_view parameter);
+[[nodiscard]] std::string parameter_text(std::string_view kind, std::string_view parameter,
+                                         const Wording& words = Wording());
 
 // "roundness RONp"
-[[nodiscard]] std::string kind_text(const metrology::CharacteristicResult& characteristic);
+[[nodiscard]] std::string kind_text(const metrology::CharacteristicResult& characteristic,
+                                    const Wording& words = Wording());
 // What it is the value of: "cone to cylinder" (toleranced, datum), "bore, section 0", "lid in frame
 // top"; empty where nothing is known of it.
-[[nodiscard]] std::string subject_text(const metrology::CharacteristicResult& characteristic);
+[[nodiscard]] std::string subject_text(const metrology::CharacteristicResult& characteristic,
+                                       const Wording& words = Wording());
 // "bore.roundness RONp", for where the kind is not printed.
-[[nodiscard]] std::string name_text(const metrology::CharacteristicResult& characteristic);
+[[nodiscard]] std::string name_text(const metrology::CharacteristicResult& characteristic,
+                                    const Wording& words = Wording());
 
 }  // namespace frustum::report

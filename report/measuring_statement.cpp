@@ -20,199 +20,218 @@ using metrology::CmmModel;
 using metrology::InspectionPlan;
 using metrology::PlannedCharacteristic;
 
-std::string source_text(const CmmModel& cmm, PointSource source) {
-  if (source == PointSource::measured_points) return "points of a CMM, read from a file";
-  const char* const probed = source == PointSource::mesh ? "virtual CMM on a mesh" : "virtual CMM";
+std::string source_text(const CmmModel& cmm, PointSource source, const Wording& words) {
+  if (source == PointSource::measured_points) {
+    return words("points of a CMM, read from a file");
+  }
+  const std::string probed =
+      source == PointSource::mesh ? words("virtual CMM on a mesh") : words("virtual CMM");
   if (metrology::point_uncertainty(cmm).is_zero()) return probed;
   const bool is_field = cmm.kind == metrology::CmmKind::field;
-  return fmt::format("{}, {}, seed {}", probed,
-                     is_field ? "21 parametric errors" : "linear error field and noise", cmm.seed);
+  return words("{0}, {1}, seed {2}", probed,
+               is_field ? words("21 parametric errors") : words("linear error field and noise"),
+               cmm.seed);
 }
 
-std::string accuracy_text(const CmmModel& cmm, PointSource source) {
+// "5 µm + L/300 (L in mm, E in µm)": in inches L is in mil, so that the divisor stays.
+std::string limit_text(const CmmModel& cmm, const Wording& words) {
+  const std::string e0 = words.amount(cmm.e0_mm * kUmPerMm, "um");
+  const std::string divisor = words.general(*cmm.length_per_error);
+  return words.is_inch() ? words("{0} + L/{1} (L in mil, E in µin)", e0, divisor)
+                         : words("{0} + L/{1} (L in mm, E in µm)", e0, divisor);
+}
+
+std::string accuracy_text(const CmmModel& cmm, PointSource source, const Wording& words) {
   if (metrology::point_uncertainty(cmm).is_zero()) {
     switch (source) {
       case PointSource::virtual_cmm:
-        return "ideal, E0 = 0: the machine makes no error, and every U is 0";
+        return words("ideal, E0 = 0: the machine makes no error, and every U is 0");
       case PointSource::mesh:
-        return "not stated: the mesh counts as the part, and every U is 0";
+        return words("not stated: the mesh counts as the part, and every U is 0");
       case PointSource::measured_points:
-        return "not stated: every U is 0, which says nothing about the machine";
+        return words("not stated: every U is 0, which says nothing about the machine");
     }
   }
-  std::string text = fmt::format("E0 = {:g} µm", cmm.e0_mm * kUmPerMm);
+  std::string text = "E0 = " + words.amount(cmm.e0_mm * kUmPerMm, "um");
   if (source == PointSource::measured_points && !cmm.length_per_error) {
-    return text + "; how errors grow with length is not stated, no U contains it";
+    return text + words("; how errors grow with length is not stated, no U contains it");
   }
   if (cmm.length_per_error) {
-    text += fmt::format("; E = {:g} µm + L/{:g} (L in mm, E in µm)", cmm.e0_mm * kUmPerMm,
-                        *cmm.length_per_error);
+    text += "; E = " + limit_text(cmm, words);
   }
   return text;
 }
 
-std::string probe_text(const metrology::ProbeSettings& probe, PointSource source) {
+std::string probe_text(const metrology::ProbeSettings& probe, PointSource source,
+                       const Wording& words) {
   const bool is_fitted = probe.compensation == metrology::Compensation::fitted;
-  const std::string ball = fmt::format("ball diameter {:g} mm", probe.ball_diameter);
+  const std::string ball = words("ball diameter {0}", words.amount(probe.ball_diameter, "mm"));
   if (source == PointSource::measured_points) return ball;
-  return ball + (is_fitted ? ", compensated along the normal of the fitted element"
-                           : ", compensated against the approach");
+  return ball + (is_fitted ? words(", compensated along the normal of the fitted element")
+                           : words(", compensated against the approach"));
 }
 
-std::string stylus_text(const metrology::Stylus& stylus) {
+std::string stylus_text(const metrology::Stylus& stylus, const Wording& words) {
   const Vec3 to_head = stylus.direction.vec();
-  return fmt::format("length {:g} mm, shank {:g} mm, from the ball along ({:g}, {:g}, {:g})",
-                     stylus.length, stylus.diameter, to_head.x(), to_head.y(), to_head.z());
+  return words("length {0}, shank {1}, from the ball along ({2}, {3}, {4})",
+               words.amount(stylus.length, "mm"), words.amount(stylus.diameter, "mm"),
+               words.general(to_head.x()), words.general(to_head.y()), words.general(to_head.z()));
 }
 
-std::string temperature_text(const metrology::ThermalState& state) {
+std::string temperature_text(const metrology::ThermalState& state, const Wording& words) {
   constexpr double kMicro = 1e-6;
+  // µm/(m K) is a millionth per kelvin, whatever the unit of length.
   std::string text =
-      fmt::format("part {:g} °C, {:g} µm/(m K); scales {:g} °C, {:g} µm/(m K); {}", state.part,
-                  state.part_expansion / kMicro, state.scales, state.scale_expansion / kMicro,
-                  state.compensated ? "compensated" : "not compensated");
+      words("part {0} °C, {1} µm/(m K); scales {2} °C, {3} µm/(m K); {4}",
+            words.general(state.part), words.general(state.part_expansion / kMicro),
+            words.general(state.scales), words.general(state.scale_expansion / kMicro),
+            state.compensated ? words("compensated") : words("not compensated"));
   if (state.compensated) {
-    text += fmt::format(", sensors right to ± {:g} K, coefficients to ± {:g} µm/(m K)",
-                        state.sensor_error, state.expansion_error / kMicro);
+    text += words(", sensors right to ± {0} K, coefficients to ± {1} µm/(m K)",
+                  words.general(state.sensor_error), words.general(state.expansion_error / kMicro));
   }
   return text;
 }
 
-std::string alignment_text(const InspectionPlan& plan) {
+std::string alignment_text(const InspectionPlan& plan, const Wording& words) {
   if (plan.alignment == metrology::Alignment::plan || !plan.datum) {
-    return "none: results are in the frame in which the points come";
+    return words("none: results are in the frame in which the points come");
   }
   const metrology::DatumSystem& datum = *plan.datum;
   if (!datum.best_fit.empty()) {
-    return fmt::format("best fit of {} by least squares", fmt::join(datum.best_fit, ", "));
+    return words("best fit of {0} by least squares",
+                 fmt::format("{}", fmt::join(datum.best_fit, ", ")));
   }
-  std::string text = "datums " + datum.primary;
+  std::string text = words("datums {0}", datum.primary);
   for (const std::string& next : {datum.secondary, datum.tertiary}) {
     if (!next.empty()) text += " | " + next;
   }
   const bool is_outside = datum.criterion == metrology::Criterion::outside_material;
-  return text + (datum.base   ? ", each by its own least-squares element"
-                 : is_outside ? ", touched from outside the material (ISO 5459)"
-                              : ", by least squares in this order");
+  return text + (datum.base   ? words(", each by its own least-squares element")
+                 : is_outside ? words(", touched from outside the material (ISO 5459)")
+                              : words(", by least squares in this order"));
 }
 
-std::string filter_text(const metrology::ProfileFilter& filter) {
+std::string filter_text(const metrology::ProfileFilter& filter, const Wording& words) {
   std::string text;
-  const auto add = [&](double value, const char* form) {
-    if (value > 0.0) text += (text.empty() ? "" : ", ") + fmt::format(fmt::runtime(form), value);
+  const auto add = [&](double value, Phrase form, const std::string& shown) {
+    if (value > 0.0) text += (text.empty() ? "" : ", ") + words(form, shown);
   };
-  add(filter.upr, "to {:g} UPR");
-  add(filter.upr_from, "from {:g} UPR");
-  add(filter.cutoff, "cut-off {:g} mm");
-  add(filter.cutoff_long, "long waves from {:g} mm removed");
+  add(filter.upr, "to {0} UPR", words.general(filter.upr));
+  add(filter.upr_from, "from {0} UPR", words.general(filter.upr_from));
+  add(filter.cutoff, "cut-off {0}", words.amount(filter.cutoff, "mm"));
+  add(filter.cutoff_long, "long waves from {0} removed", words.amount(filter.cutoff_long, "mm"));
   return text;
 }
 
 // What noise alone makes of a perfect circle: the mean range of 36 and of 360 normal numbers.
-std::string noise_text(const CmmModel& cmm) {
+std::string noise_text(const CmmModel& cmm, const Wording& words) {
   constexpr double kRangeOf36 = 4.24, kRangeOf360 = 5.87;
   const double noise = kUmPerMm * metrology::point_uncertainty(cmm).probing;
   if (!(noise > 0.0)) return "";
-  return fmt::format(
-      "; its {:.2g} µm a point make a perfect circle of 36 points {:.2g} µm, of 360 points {:.2g} "
-      "µm",
-      noise, kRangeOf36 * noise, kRangeOf360 * noise);
+  const auto rounded = [&](double um) {
+    return words.number(fmt::format("{:.2g}", words.shown(um, "um"))) + " " + words.symbol("um");
+  };
+  return words("; its {0} a point make a perfect circle of 36 points {1}, of 360 points {2}",
+               rounded(noise), rounded(kRangeOf36 * noise), rounded(kRangeOf360 * noise));
 }
 
-std::string filters_text(const InspectionPlan& plan, const CmmModel& cmm) {
+std::string filters_text(const InspectionPlan& plan, const CmmModel& cmm, const Wording& words) {
   std::string text;
   for (const PlannedCharacteristic& c : plan.characteristics) {
     if (!c.filter) continue;
-    text +=
-        fmt::format("{}{}: Gaussian, {}", text.empty() ? "" : "; ", c.name, filter_text(*c.filter));
+    text += (text.empty() ? "" : "; ") +
+            words("{0}: Gaussian, {1}", c.name, filter_text(*c.filter, words));
   }
   if (text.empty()) {
-    return "none: forms hold all undulations and the noise of the machine" + noise_text(cmm);
+    return words("none: forms hold all undulations and the noise of the machine") +
+           noise_text(cmm, words);
   }
-  return text + "; all others none";
+  return text + words("; all others none");
 }
 
-std::string association_text(const InspectionPlan& plan) {
-  constexpr std::array<std::string_view, 5> kWords{"least squares", "minimum zone",
-                                                   "maximum inscribed", "minimum circumscribed",
-                                                   "outside the material"};
-  const auto words = [&](metrology::Criterion criterion) {
-    return kWords.at(static_cast<std::size_t>(criterion));
+std::string association_text(const InspectionPlan& plan, const Wording& words) {
+  constexpr std::array<Phrase, 5> kWords{"least squares", "minimum zone", "maximum inscribed",
+                                         "minimum circumscribed", "outside the material"};
+  const auto criterion_text = [&](metrology::Criterion criterion) {
+    return words(kWords.at(static_cast<std::size_t>(criterion)));
   };
   constexpr auto kUsual = metrology::Criterion::least_squares;
-  std::string text = "least squares";
+  std::string text = words("least squares");
   for (const PlannedCharacteristic& c : plan.characteristics) {
     std::vector<std::string> others;
-    if (c.criterion != kUsual) others.emplace_back(words(c.criterion));
+    if (c.criterion != kUsual) others.push_back(criterion_text(c.criterion));
     if (c.datum_criterion != kUsual) {
-      others.push_back(fmt::format("datum {}", words(c.datum_criterion)));
+      others.push_back(words("datum {0}", criterion_text(c.datum_criterion)));
     }
-    if (c.floating) others.emplace_back("floating, planned geometry fitted to the points");
+    if (c.floating) others.push_back(words("floating, planned geometry fitted to the points"));
     if (!others.empty()) text += fmt::format("; {}: {}", c.name, fmt::join(others, ", "));
   }
   return text;
 }
 
 // Of the forms whose plan states one; empty when none does.
-std::string parameters_text(const InspectionPlan& plan) {
+std::string parameters_text(const InspectionPlan& plan, const Wording& words) {
   std::string text;
   for (const PlannedCharacteristic& c : plan.characteristics) {
     if (!c.parameter) continue;
     const auto parameter = metrology::kParameterNames.at(static_cast<std::size_t>(*c.parameter));
     text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", c.name,
-                        parameter_text(name_of(c.kind), parameter));
+                        parameter_text(name_of(c.kind), parameter, words));
   }
   return text;
 }
 
-std::string uncertainty_text_of(const InspectionPlan& plan, const CmmModel& cmm,
-                                PointSource source) {
+std::string uncertainty_text_of(const InspectionPlan& plan, const CmmModel& cmm, PointSource source,
+                                const Wording& words) {
   const bool is_zero = metrology::point_uncertainty(cmm).is_zero();
   if (is_zero && source != PointSource::virtual_cmm) {
-    return "not stated: nothing is said of how far the values are from the truth";
+    return words("not stated: nothing is said of how far the values are from the truth");
   }
   std::vector<std::string> unproven;
   for (const PlannedCharacteristic& c : plan.characteristics) {
     if (!is_zero && !metrology::is_coverage_proven(plan, c)) unproven.push_back(c.name);
   }
-  return std::string(
+  return words(
              "value +- U holds the true value in 95 % of measurements, by what is stated of the "
              "machine") +
          (unproven.empty() ? ""
-                           : fmt::format("; not proven where single touched points decide: {}",
-                                         fmt::join(unproven, ", "))) +
-         (plan.monte_carlo ? "; the interval is simulated (Monte Carlo)" : "");
+                           : words("; not proven where single touched points decide: {0}",
+                                   fmt::format("{}", fmt::join(unproven, ", ")))) +
+         (plan.monte_carlo ? words("; the interval is simulated (Monte Carlo)") : "");
 }
 
-std::string decision_text(metrology::DecisionRule rule) {
-  constexpr std::array<std::string_view, 2> kRules{
+std::string decision_text(metrology::DecisionRule rule, const Wording& words) {
+  constexpr std::array<Phrase, 2> kRules{
       "simple acceptance: the value is within the tolerance; U is not taken into account "
       "(ISO 14253-1 is not applied)",
       "ISO 14253-1: pass where value + U, and value - U of a value with two limits, is within the "
       "tolerance, fail where all of value +- U is outside, uncertain otherwise and where U is not "
       "proven or not stated"};
-  return std::string(kRules.at(static_cast<std::size_t>(rule)));
+  return words(kRules.at(static_cast<std::size_t>(rule)));
 }
 
 }  // namespace
 
 std::vector<Fact> measuring_statement(const InspectionPlan& plan, const CmmModel& cmm,
-                                      PointSource source) {
-  std::vector<Fact> facts{{"source", "Measured by", source_text(cmm, source)},
-                          {"accuracy", "Accuracy", accuracy_text(cmm, source)},
-                          {"probe", "Probe", probe_text(plan.probe, source)}};
-  if (cmm.stylus) facts.push_back({"stylus", "Stylus", stylus_text(*cmm.stylus)});
+                                      PointSource source, const Wording& words) {
+  std::vector<Fact> facts{{"source", words("Measured by"), source_text(cmm, source, words)},
+                          {"accuracy", words("Accuracy"), accuracy_text(cmm, source, words)},
+                          {"probe", words("Probe"), probe_text(plan.probe, source, words)}};
+  if (cmm.stylus) facts.push_back({"stylus", words("Stylus"), stylus_text(*cmm.stylus, words)});
   if (cmm.temperature) {
-    facts.push_back({"temperature", "Temperature", temperature_text(*cmm.temperature)});
+    facts.push_back(
+        {"temperature", words("Temperature"), temperature_text(*cmm.temperature, words)});
   }
-  facts.push_back({"alignment", "Alignment", alignment_text(plan)});
-  facts.push_back({"filter", "Filter", filters_text(plan, cmm)});
-  facts.push_back({"association", "Association", association_text(plan)});
-  if (const std::string text = parameters_text(plan); !text.empty()) {
-    facts.push_back({"parameter", "Form parameter", text});
+  facts.push_back({"alignment", words("Alignment"), alignment_text(plan, words)});
+  facts.push_back({"filter", words("Filter"), filters_text(plan, cmm, words)});
+  facts.push_back({"association", words("Association"), association_text(plan, words)});
+  if (const std::string text = parameters_text(plan, words); !text.empty()) {
+    facts.push_back({"parameter", words("Form parameter"), text});
   }
-  facts.push_back({"uncertainty", "Uncertainty", uncertainty_text_of(plan, cmm, source)});
-  facts.push_back({"decision_rule", "Decision rule", decision_text(plan.decision)});
+  facts.push_back(
+      {"uncertainty", words("Uncertainty"), uncertainty_text_of(plan, cmm, source, words)});
+  facts.push_back({"decision_rule", words("Decision rule"), decision_text(plan.decision, words)});
   return facts;
 }
 

@@ -1,6 +1,7 @@
 // How a part was measured, in words: machine and its accuracy, probe, alignment, filters,
 // associations, uncertainty, decision rule.
 //
+// Facts for files are in English and mm, those of a page as its wording says.
 // Units: as printed beside each number. Errors: none.
 // Source: ISO 10360-2 for E, ISO 14253-1 for the decision rule, JCGM 100 for U
 #pragma once
@@ -10,6 +11,7 @@
 #include "metrology/plan/inspection_plan.hpp"
 #include "metrology/probing/cmm_model.hpp"
 #include "report/evidence.hpp"
+#include "report/wording.hpp"
 
 namespace frustum::report {
 
@@ -21,6 +23,7 @@ enum class PointSource { virtual_cmm, mesh, measured_points };
 // left out.
 [[nodiscard]] std::vector<Fact> measuring_statement(const metrology::InspectionPlan& plan,
                                                     const metrology::CmmModel& cmm,
-                                                    PointSource source);
+                                                    PointSource source,
+                                                    const Wording& words = Wording());
 
 }  // namespace frustum::report

@@ -33,21 +33,27 @@ bool SurfacePicture::is_valid() const {
          });
 }
 
-std::string machine_bodies_text(const MachineBodies& bodies) {
+std::string machine_bodies_text(const MachineBodies& bodies, const Wording& words) {
   if (bodies.bodies == 0) {
-    return "Machine collisions were not looked for: neither the machine file nor the job states "
-           "bodies.";
+    return words(
+        "Machine collisions were not looked for: neither the machine file nor the job states "
+        "bodies.");
   }
-  const std::string count = fmt::format("{} {} of machine and fixtures, with tools and blank",
-                                        bodies.bodies, bodies.bodies == 1 ? "body" : "bodies");
-  if (!bodies.smallest_distance) return count + ": none moves against another.";
-  const std::string line = bodies.line == 0 ? "" : fmt::format(", line {}", bodies.line);
-  const std::string place = line + (bodies.file.empty() ? "" : fmt::format(" in {}", bodies.file));
+  const std::string count =
+      bodies.bodies == 1
+          ? words("1 body of machine and fixtures, with tools and blank")
+          : words("{0} bodies of machine and fixtures, with tools and blank", bodies.bodies);
+  if (!bodies.smallest_distance) return words("{0}: none moves against another.", count);
+  const std::string line = bodies.line == 0 ? "" : words(", line {0}", bodies.line);
+  const std::string place = line + (bodies.file.empty() ? "" : words(" in {0}", bodies.file));
   if (*bodies.smallest_distance == 0.0) {
-    return fmt::format("{}: {} and {} meet{}.", count, bodies.first, bodies.second, place);
+    return words("{0}: {1} and {2} meet{3}.", count, bodies.first, bodies.second, place);
   }
-  return fmt::format("{}: smallest distance {:.2f} mm, {} to {}{}.", count,
-                     *bodies.smallest_distance, bodies.first, bodies.second, place);
+  const std::string distance =
+      words.fixed(words.shown(*bodies.smallest_distance, "mm"), words.is_inch() ? 4 : 2) + " " +
+      words.symbol("mm");
+  return words("{0}: smallest distance {1}, {2} to {3}{4}.", count, distance, bodies.first,
+               bodies.second, place);
 }
 
 bool RunReport::passes() const {

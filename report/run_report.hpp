@@ -18,6 +18,7 @@
 #include "cutter/body/cutter_spec.hpp"
 #include "metrology/measurement.hpp"
 #include "report/evidence.hpp"
+#include "report/wording.hpp"
 
 namespace frustum::report {
 
@@ -93,7 +94,8 @@ struct MachineBodies {
   std::string file{};                         // of a subprogram's own file
 };
 // "Machine collisions were not looked for: ...", or what was found.
-[[nodiscard]] std::string machine_bodies_text(const MachineBodies& bodies);
+[[nodiscard]] std::string machine_bodies_text(const MachineBodies& bodies,
+                                              const Wording& words = Wording());
 
 // A block that an axis limit kept below its feed.
 struct SlowedBlock {
@@ -127,6 +129,7 @@ struct PointBounds {
 };
 
 struct RunReport {
+  ReportStyle style{};  // of the page and of the text on a terminal alone
   std::string title{};
   Evidence evidence{};
   std::string version{};    // of the program that made the report; left out when empty

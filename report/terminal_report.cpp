@@ -8,6 +8,7 @@
 #include "core/units.hpp"
 #include "report/form_parameter.hpp"
 #include "report/number_text.hpp"
+#include "report/tool_text.hpp"
 #include "report/verdict.hpp"
 
 namespace frustum::report {
@@ -34,11 +35,21 @@ std::string padded(const std::string& text, std::size_t width, bool to_the_right
   return to_the_right ? fill + text : text + fill;
 }
 
+constexpr std::size_t kLabel = 11;  // columns
+
+// Units of a terminal are in ASCII: "um", "uin".
+std::string with_ascii_unit(const std::string& number, std::string_view unit,
+                            const Wording& words) {
+  return number + " " + std::string(words.unit(unit));
+}
+
 // One page under way: knows the width, the colours and how to wrap.
 class Page {
  public:
-  explicit Page(const TerminalOptions& options)
-      : options_(options), width_(static_cast<std::size_t>(std::max(options.width, 60))) {}
+  Page(const TerminalOptions& options, const ReportStyle& style)
+      : words(style),
+        options_(options),
+        width_(static_cast<std::size_t>(std::max(options.width, 60))) {}
 
   [[nodiscard]] std::string take() { return std::move(text_); }
   [[nodiscard]] std::size_t width() const { return width_; }
@@ -84,10 +95,17 @@ class Page {
 
   [[nodiscard]] std::string bold(const std::string& content) const { return coded("1", content); }
   [[nodiscard]] std::string verdict(metrology::Verdict verdict) const {
-    if (verdict == metrology::Verdict::uncertain) return coded("1;33", "UNCERTAIN");
+    if (verdict == metrology::Verdict::uncertain) return coded("1;33", words("UNCERTAIN"));
     const bool pass = verdict == metrology::Verdict::pass;
-    return coded(pass ? "1;32" : "1;31", pass ? "PASS" : "FAIL");
+    return coded(pass ? "1;32" : "1;31", pass ? words("PASS") : words("FAIL"));
   }
+  // A short name at the beginning of a line, and the blanks after it.
+  [[nodiscard]] std::string label(Phrase name) const {
+    const std::string text = words(name);
+    return padded(text, std::max(kLabel, columns_of(text) + 1), false);
+  }
+
+  const Wording words;
 
  private:
   [[nodiscard]] std::string coded(std::string_view code, const std::string& content) const {
@@ -100,34 +118,39 @@ class Page {
 };
 
 void write_head(Page& page, const RunReport& report) {
-  const std::string title = printable(report.title.empty() ? "Untitled run" : report.title);
+  const std::string title =
+      printable(report.title.empty() ? page.words("Untitled run") : report.title);
   const std::size_t used = columns_of(title) + 4;
   const std::string gap(page.width() > used ? page.width() - used : 2, ' ');
   page.line(page.bold(title) + gap + page.verdict(report.verdict()));
   const std::string structure = report.structure.empty() ? "" : " [" + report.structure + "]";
-  if (!report.machine.empty()) page.labelled("Machine    ", report.machine + structure);
-  if (!report.program.empty()) page.labelled("Program    ", report.program);
+  if (!report.machine.empty()) page.labelled(page.label("Machine"), report.machine + structure);
+  if (!report.program.empty()) page.labelled(page.label("Program"), report.program);
   for (const auto& [number, tool] : report.tools) {
-    page.labelled(padded(fmt::format("Tool {}", number), 11, false), cutter::description(tool));
+    page.labelled(padded(fmt::format("{} {}", page.words("Tool"), number), kLabel, false),
+                  tool_text(tool, page.words));
   }
   if (report.volumes.removed) {
-    page.labelled("Removed    ", fixed_text(*report.volumes.removed / 1e3, 2) + " cm3");
+    const double mm3 = *report.volumes.removed;
+    page.labelled(page.label("Removed"),
+                  page.words.is_inch() ? page.words.fixed(page.words.shown(mm3, "mm3"), 3) + " in3"
+                                       : page.words.fixed(mm3 / 1e3, 2) + " cm3");
   }
 }
 
 void write_machine_bodies(Page& page, const RunReport& report) {
   if (report.machine_bodies) {
-    page.labelled("Bodies     ", machine_bodies_text(*report.machine_bodies));
+    page.labelled(page.label("Bodies"), machine_bodies_text(*report.machine_bodies, page.words));
   }
 }
 
 void write_errors(Page& page, const RunReport& report) {
   if (report.errors.empty() && report.machine.empty()) return;  // no machine tool was simulated
   if (report.errors.empty()) {
-    page.labelled("Errors     ", "none injected");
+    page.labelled(page.label("Errors"), page.words("none injected"));
     return;
   }
-  page.heading("Errors injected");
+  page.heading(page.words("Errors injected"));
   std::size_t name_width = 0;
   std::size_t value_width = 0;
   for (const InjectedError& injected : report.errors) {
@@ -137,14 +160,14 @@ void write_errors(Page& page, const RunReport& report) {
   for (const InjectedError& injected : report.errors) {
     const std::string label = "  " + padded(printable(injected.name), name_width + 2, false) +
                               padded(printable(injected.written), value_width + 2, false);
-    page.labelled(label, injected.meaning);
+    page.labelled(label, page.words.sentence(injected.meaning));
   }
 }
 
-std::string uncertainty_cell(const metrology::CharacteristicResult& c) {
+std::string uncertainty_cell(const metrology::CharacteristicResult& c, const Wording& words) {
   if (c.is_accuracy_unknown) return "-";
-  const std::string_view doubt = doubt_of(c);
-  return uncertainty_text(c.expanded_uncertainty) +
+  const std::string doubt = words.word(doubt_of(c));
+  return words.uncertainty(c.expanded_uncertainty, c.unit) +
          (doubt.empty() ? "" : fmt::format(" ({})", doubt));
 }
 
@@ -154,15 +177,17 @@ void write_characteristics(Page& page, const RunReport& report) {
   const bool has_nominal = std::any_of(characteristics.begin(), characteristics.end(),
                                        [](const auto& c) { return !nominal_text(c).empty(); });
   std::vector<std::vector<std::string>> rows;
-  rows.push_back({"Characteristic", "Value", "Nominal", "Tolerance",
-                  is_accuracy_unknown(report.measurement) ? "U" : "U (95%)", "95 % interval",
-                  "Used", "Verdict"});
+  const Wording& words = page.words;
+  rows.push_back({words("Characteristic"), words("Value"), words("Nominal"), words("Tolerance"),
+                  is_accuracy_unknown(report.measurement) ? "U" : "U (95%)", words("95 % interval"),
+                  words("Used"), words("Verdict")});
   for (const metrology::CharacteristicResult& c : characteristics) {
     const std::optional<double> used = used_share(c);
     const std::string plus_minus = c.nominal ? "+-" : "";
-    rows.push_back({printable(name_text(c)), result_text(c) + " " + c.unit, nominal_text(c),
-                    plus_minus + value_text(c.tolerance, c.unit), uncertainty_cell(c),
-                    interval_text(c), used ? fixed_text(100.0 * *used, 0) + " %" : "-", ""});
+    rows.push_back({printable(name_text(c, words)), with_ascii_unit(words.result(c), c.unit, words),
+                    words.nominal(c), plus_minus + words.value(c.tolerance, c.unit),
+                    uncertainty_cell(c, words), words.interval(c),
+                    used ? fixed_text(100.0 * *used, 0) + " %" : "-", ""});
   }
   const bool has_interval = std::any_of(characteristics.begin(), characteristics.end(),
                                         [](const auto& c) { return c.simulated.has_value(); });
@@ -183,8 +208,8 @@ void write_characteristics(Page& page, const RunReport& report) {
     for (std::size_t k = 1; k + 1 < columns; ++k)
       text += "  " + padded(rows[r][k], widths[k], true);
     if (r == 0) {
-      page.line(page.bold(text + "  Verdict"));
-      page.line(std::string(columns_of(text) + 9, '-'));
+      page.line(page.bold(text + "  " + words("Verdict")));
+      page.line(std::string(columns_of(text) + 2 + columns_of(words("Verdict")), '-'));
     } else {
       page.line(text + "  " + page.verdict(characteristics[r - 1].verdict()));
     }
@@ -195,32 +220,41 @@ void write_without_seam(Page& page, const RunReport& report) {
   for (const metrology::CharacteristicResult& c : report.measurement.characteristics) {
     if (!c.without_seam) continue;
     page.labelled(
-        "", fmt::format("{}: {} {} without the seam at {:g} deg +- {:g} deg", printable(c.name),
-                        value_text(c.without_seam->value, c.unit), c.unit,
-                        c.without_seam->at * kDegPerRad, c.without_seam->within * kDegPerRad));
+        "", page.words("{0}: {1} without the seam at {2} deg +- {3} deg", printable(c.name),
+                       with_ascii_unit(page.words.value(c.without_seam->value, c.unit), c.unit,
+                                       page.words),
+                       page.words.general(c.without_seam->at * kDegPerRad),
+                       page.words.general(c.without_seam->within * kDegPerRad)));
   }
 }
 
 void write_no_uncertainty(Page& page, const RunReport& report) {
   if (!has_no_uncertainty(report.measurement)) return;
   page.labelled("", is_accuracy_unknown(report.measurement)
-                        ? "U is not known: no accuracy of the CMM is stated (--e0, --l-per-um)"
-                        : "U = 0: no error of the CMM is stated (e0 and l_per_um)");
+                        ? page.words("U is not known: no accuracy of the CMM is stated (--e0, "
+                                     "--l-per-um)")
+                        : page.words("U = 0: no error of the CMM is stated (e0 and l_per_um)"));
 }
 
 void write_cycle(Page& page, const RunReport& report) {
   if (!report.cycle_time) return;
   page.line();
-  page.labelled("Cycle time ", duration_text(*report.cycle_time));
+  page.labelled(page.label("Cycle time"), page.words.number(duration_text(*report.cycle_time)));
   if (report.slowed.empty()) return;
-  page.line(fmt::format("  {} block{} slowed by axis limits", report.slowed.size(),
-                        report.slowed.size() == 1 ? "" : "s"));
+  const Wording& words = page.words;
+  page.line("  " + (report.slowed.size() == 1
+                        ? words("1 block slowed by axis limits")
+                        : words("{0} blocks slowed by axis limits", report.slowed.size())));
+  const auto feed = [&](double value) {
+    return words.fixed(words.shown(value, "mm/min"), words.is_inch() ? 2 : 0);
+  };
   // The worst are enough; the JSON document has them all.
   const std::size_t shown = std::min<std::size_t>(report.slowed.size(), 5);
   for (std::size_t k = 0; k < shown; ++k) {
     const SlowedBlock& block = report.slowed[k];
-    page.line(fmt::format("  line {}: axis {}, {} instead of {} mm/min", block.line, block.axis,
-                          fixed_text(block.reached_feed, 0), fixed_text(block.programmed_feed, 0)));
+    page.line("  " + words("line {0}: axis {1}, {2} instead of {3} {4}", block.line, block.axis,
+                           feed(block.reached_feed), feed(block.programmed_feed),
+                           words.unit("mm/min")));
   }
 }
 
@@ -228,22 +262,26 @@ void write_bounds(Page& page, const RunReport& report) {
   if (!report.bounds || report.bounds->points == 0) return;
   const PointBounds& b = *report.bounds;
   page.line();
-  page.labelled("Points     ",
-                fmt::format("worst bound {} um, {} of {} sampled points proven",
-                            fixed_text(b.worst_bound * kUmPerMm, 4), b.proven, b.sampled));
+  const std::string bound =
+      with_ascii_unit(page.words.fixed(page.words.shown(b.worst_bound * kUmPerMm, "um"),
+                                       page.words.is_inch() ? 3 : 4),
+                      "um", page.words);
+  page.labelled(
+      page.label("Points"),
+      page.words("worst bound {0}, {1} of {2} sampled points proven", bound, b.proven, b.sampled));
 }
 
 void write_collisions(Page& page, const RunReport& report) {
   if (report.collisions.empty()) return;
-  page.heading(fmt::format("Collisions ({})", report.collisions.size()));
+  page.heading(page.words("Collisions ({0})", report.collisions.size()));
   const std::size_t shown = std::min(report.collisions.size(), page.list_limit());
   for (std::size_t k = 0; k < shown; ++k) {
     const Collision& collision = report.collisions[k];
-    const std::string place = collision.line > 0 ? fmt::format("line {}: ", collision.line) : "";
+    const std::string place = collision.line > 0 ? page.words("line {0}: ", collision.line) : "";
     page.labelled("  ", place + collision.text);
   }
   if (shown < report.collisions.size()) {
-    page.line(fmt::format("  and {} more", report.collisions.size() - shown));
+    page.line("  " + page.words("and {0} more", report.collisions.size() - shown));
   }
 }
 
@@ -252,12 +290,14 @@ void write_diagnostics(Page& page, const RunReport& report) {
   all.insert(all.end(), report.measurement.diagnostics.begin(),
              report.measurement.diagnostics.end());
   if (all.empty() && report.notes.empty()) return;
-  page.heading("Remarks");
+  page.heading(page.words("Remarks"));
   const std::size_t shown = std::min(all.size(), page.list_limit());
   for (std::size_t k = 0; k < shown; ++k) page.labelled("  ", to_string(all[k]));
-  if (shown < all.size()) page.line(fmt::format("  and {} more", all.size() - shown));
+  if (shown < all.size()) page.line("  " + page.words("and {0} more", all.size() - shown));
   for (const std::string& note : report.notes) page.labelled("  ", note);
 }
+
+constexpr std::size_t kFootLabel = 9;  // columns
 
 void write_foot(Page& page, const RunReport& report) {
   if (!report.timings.empty()) {
@@ -265,16 +305,18 @@ void write_foot(Page& page, const RunReport& report) {
     double sum = 0.0;
     for (const Timing& timing : report.timings) {
       sum += timing.seconds;
-      text += fmt::format("{} {} s, ", timing.name, fixed_text(timing.seconds, 2));
+      text += fmt::format("{} {} s, ", page.words.word(timing.name),
+                          page.words.fixed(timing.seconds, 2));
     }
     page.line();
-    page.labelled("Time     ", text + fmt::format("together {} s", fixed_text(sum, 2)));
+    page.labelled(padded(page.words("Time"), kFootLabel, false),
+                  text + page.words("together {0} s", page.words.fixed(sum, 2)));
   }
   if (report.files.empty()) return;
   if (report.timings.empty()) page.line();
   bool is_first = true;
   for (const std::string& file : report.files) {
-    page.labelled(is_first ? "Written  " : "         ", file);
+    page.labelled(padded(is_first ? page.words("Written") : "", kFootLabel, false), file);
     is_first = false;
   }
 }
@@ -282,7 +324,7 @@ void write_foot(Page& page, const RunReport& report) {
 }  // namespace
 
 std::string terminal_report(const RunReport& report, const TerminalOptions& options) {
-  Page page(options);
+  Page page(options, report.style);
   write_head(page, report);
   write_machine_bodies(page, report);
   write_errors(page, report);

@@ -26,17 +26,18 @@ std::string_view doubt_of(const metrology::CharacteristicResult& characteristic)
   return is_doubtful ? metrology::name_of(*coverage) : std::string_view();
 }
 
-std::string counts_text(const metrology::Measurement& measurement) {
+std::string counts_text(const metrology::Measurement& measurement, const Wording& words) {
   std::array<std::size_t, 4> counts{};
   for (const auto& c : measurement.characteristics) {
     ++counts.at(static_cast<std::size_t>(outcome_of(c)));
   }
-  constexpr std::array<std::string_view, 4> kOne{"passes", "fails", "uncertain", "not measured"};
+  constexpr std::array<Phrase, 4> kOne{"passes", "fails", "uncertain", "not measured"};
   std::string text;
   for (std::size_t k = 0; k < counts.size(); ++k) {
     if (counts[k] == 0) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[k],
-                        counts[k] == 1 ? kOne[k] : name_of(static_cast<Outcome>(k)));
+    text +=
+        fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[k],
+                    counts[k] == 1 ? words(kOne[k]) : words.word(name_of(static_cast<Outcome>(k))));
   }
   return text;
 }

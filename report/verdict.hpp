@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "metrology/measurement.hpp"
+#include "report/wording.hpp"
 
 namespace frustum::report {
 
@@ -23,7 +24,8 @@ enum class Outcome { pass, fail, uncertain, not_measured };
 
 // "6 pass, 1 fails, 1 uncertain": how many characteristics came to what, those that none came to
 // left out; empty without characteristics.
-[[nodiscard]] std::string counts_text(const metrology::Measurement& measurement);
+[[nodiscard]] std::string counts_text(const metrology::Measurement& measurement,
+                                      const Wording& words = Wording());
 
 // Every characteristic states an uncertainty of exactly 0: nothing is known of the machine that
 // measured, or it is ideal.

@@ -15,9 +15,11 @@ void add_answer_options(Command& command, AnswerOptions& options) {
 }
 
 void add_result_options(Command& command, ResultOptions& options) {
-  command.option("--export", options.exports,
-                 "Results in another format, by the extension: .qif (QIF 3.0), .csv, .xml "
-                 "(JUnit), .dfq (Q-DAS), .json; may be repeated");
+  command.option(
+      "--export", options.exports,
+      "Results in another format, by the extension: .qif (QIF 3.0), .csv, .xml "
+      "(JUnit), .dfq (Q-DAS), .dmo (DMIS output), .dxf (measured sections), .svg (charts), "
+      ".json; may be repeated");
   add_answer_options(command, options);
 }
 

@@ -98,14 +98,14 @@ Result<metrology::Measurement> evaluated_points(const MeasureOptions& options,
                                                 const InspectionPlan& plan,
                                                 const std::optional<LengthUnit>& unit,
                                                 const CmmModel& cmm, std::string_view bytes) {
-  const auto points = metrology::parse_feature_points(bytes, options.points, unit);
+  const auto meaning = options.ball_centres ? metrology::PointMeaning::ball_centre
+                                            : metrology::PointMeaning::surface;
+  const auto points = metrology::parse_feature_points(bytes, options.points, unit, meaning);
   if (!points) return points.error();
   if (auto fault = metrology::scale_fault(plan, *points)) {
     fault->file = options.points;
     return *std::move(fault);
   }
-  const auto meaning = options.ball_centres ? metrology::PointMeaning::ball_centre
-                                            : metrology::PointMeaning::surface;
   return metrology::evaluate(plan, *points, meaning, cmm);
 }
 
@@ -230,8 +230,8 @@ void add_measure(Command& program) {
   command.option("job", options->job, "Job file");
   command.option("--plan", options->plan, "Inspection plan for --points or --mesh");
   command.option("--points", options->points,
-                 "CSV with feature,section,x,y,z, or columns x y z or a PLY for a plan of one "
-                 "feature; mm unless the file states a unit");
+                 "CSV with feature,section,x,y,z, a QIF, or columns x y z or a PLY for a plan of "
+                 "one feature; mm unless the file states a unit");
   command.option("--mesh", options->mesh,
                  "STL, PLY or OBJ that is probed like a part, in the plan's frame");
   add_unit_option(command, options->unit);

@@ -5,6 +5,7 @@
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
+#include "app/command/option/style_option.hpp"
 #include "app/job/export_request.hpp"
 #include "app/job/job.hpp"
 #include "app/job/job_evidence.hpp"
@@ -14,6 +15,7 @@
 #include "core/file_set.hpp"
 #include "report/exchange/json_report.hpp"
 #include "report/exchange/points_csv.hpp"
+#include "report/measuring_statement.hpp"
 #include "report/page/html_report.hpp"
 
 namespace frustum::app {
@@ -23,6 +25,7 @@ struct RunOptions : ResultOptions {
   std::string job{};
   std::string out{};
   JobOverrides overrides{};
+  StyleWords style{};
 };
 
 // Files go to --out, else beside the job into out/.
@@ -63,7 +66,11 @@ int run_job(const RunOptions& options) {
     write_failed_exports(*exports, trial.error(), job->piece.plan);
     return refuse(trial.error(), options);
   }
+  const report::ReportStyle style = style_of(options.style);
+  evidence->measuring_shown = report::measuring_statement(
+      job->piece.plan, job->cmm, report::PointSource::virtual_cmm, report::Wording(style));
   report::RunReport report = report_of(*job, *trial, *std::move(evidence));
+  report.style = style;
   run.begin("prove points");
   add_proof(report, trials::prove_points(*trial->workpiece, trial->measurement));
   if (job->report) {
@@ -98,6 +105,7 @@ void add_run(Command& program) {
   add_error_options(command, options->overrides.errors);
   command.option("--tool-radius-error", options->overrides.tool_radius_error,
                  "Of every tool, with unit, for example 2um");
+  add_style_options(command, options->style);
   add_result_options(command, *options);
   command.footer("Example: frustum run job.toml --out out --error EX0C=10um");
   command.computes([options] { return run_job(*options); });

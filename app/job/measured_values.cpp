@@ -164,10 +164,10 @@ Result<MeasuredPart> read_measured_part(const fs::path& file, const InspectionPl
   const std::string extension = file.extension().string();
   if (extension == ".toml") return from_toml(file, plan);
   if (extension == ".json") return from_json(file, plan);
-  if (extension == ".csv") return from_points(file, plan);
-  Diagnostic d = error("unknown-format"_id,
-                       fmt::format("no measured values are read from '{}' files", extension),
-                       "give .toml (values), .json (result of a run) or .csv (CMM points)");
+  if (extension == ".csv" || extension == ".qif") return from_points(file, plan);
+  Diagnostic d = error(
+      "unknown-format"_id, fmt::format("no measured values are read from '{}' files", extension),
+      "give .toml (values), .json (result of a run), or .csv or .qif (CMM points)");
   d.file = file.string();
   return d;
 }

@@ -15,6 +15,7 @@
 #include "core/whole_file.hpp"
 #include "metrology/points/line_words.hpp"
 #include "metrology/points/ply_points.hpp"
+#include "metrology/points/qif_points.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -341,12 +342,35 @@ Result<std::vector<FoundPoints>> parse_ply(std::string_view bytes,
   return std::vector<FoundPoints>{std::move(found)};
 }
 
+// The document has its own unit.
+Result<std::vector<FoundPoints>> parse_qif(std::string_view bytes,
+                                           const std::filesystem::path& file,
+                                           const std::optional<LengthUnit>& unit,
+                                           PointMeaning meaning) {
+  auto qif = parse_qif_points(bytes, meaning);
+  Diagnostics problems = qif ? Diagnostics() : qif.error();
+  if (qif && unit && unit->mm != qif->unit) {
+    problems.push_back(unlike_units({fmt::format("{:g} mm", qif->unit), qif->unit}, *unit));
+  }
+  for (Diagnostic& d : problems) d.file = file.string();
+  if (!problems.empty()) return problems;
+  std::vector<FoundPoints> found;
+  for (FeaturePoints& feature : qif->features) {
+    feature.file = file.string();
+    found.push_back({.feature = std::move(feature)});
+  }
+  return found;
+}
+
 Result<std::vector<FoundPoints>> parse_file(std::string_view text,
                                             const std::filesystem::path& file,
-                                            const std::optional<LengthUnit>& unit) {
+                                            const std::optional<LengthUnit>& unit,
+                                            PointMeaning meaning = PointMeaning::surface) {
   std::string extension = file.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ".ply" ? parse_ply(text, file, unit) : PointReader(file, unit).read(text);
+  if (extension == ".ply") return parse_ply(text, file, unit);
+  if (extension == ".qif") return parse_qif(text, file, unit, meaning);
+  return PointReader(file, unit).read(text);
 }
 
 Result<std::vector<FoundPoints>> read_file(const std::filesystem::path& file,
@@ -387,8 +411,9 @@ Result<std::string> read_point_bytes(const std::filesystem::path& file) {
 
 Result<std::vector<FeaturePoints>> parse_feature_points(std::string_view text,
                                                         const std::filesystem::path& file,
-                                                        const std::optional<LengthUnit>& unit) {
-  return without_weights(parse_file(text, file, unit), file);
+                                                        const std::optional<LengthUnit>& unit,
+                                                        PointMeaning meaning) {
+  return without_weights(parse_file(text, file, unit, meaning), file);
 }
 
 Result<std::vector<FeaturePoints>> read_feature_points(const std::filesystem::path& file,

@@ -1,4 +1,4 @@
-// Files of measured points: CSV, columns separated by blanks (XYZ), PLY.
+// Files of measured points: CSV, columns separated by blanks (XYZ), PLY, QIF.
 //
 // Text: "x y z" or "x,y,z" lines; an optional first line that holds only the number of points; an
 //       optional header such as feature,section,x,y,z (names in any order; feature, section, weight
@@ -7,7 +7,7 @@
 //       has length 1. Directions are not used. Names with a comma in quotes as RFC 4180 says, a '
 //       before = + - @ is none of the name (csv_field.hpp); comments from # to the end of the line;
 //       blank lines. Lines end with LF, CR LF or CR; UTF-8 or UTF-16. PLY (by the extension .ply):
-//       the vertices, text or binary.
+//       the vertices, text or binary. QIF (.qif): the measured points of each feature.
 // Units  : mm, unless the file says otherwise: a comment "# unit: inch" before the first point, a
 //          heading "x [inch]" at each of x, y and z, or the caller who knows. Points come out in mm
 // Errors : wrong number of columns, text where a number belongs, a decimal comma, NaN or infinity,
@@ -44,9 +44,10 @@ struct PointCloud {
     const std::filesystem::path& file, const std::optional<LengthUnit>& unit = {});
 // Its bytes, for whoever keeps them beside the points.
 [[nodiscard]] Result<std::string> read_point_bytes(const std::filesystem::path& file);
-// What such a file holds; `file` names it, and its extension tells PLY from text.
+// What such a file holds; `file` names it, and its extension tells PLY and QIF from text. A QIF
+// says what its points are: others than `meaning` are refused.
 [[nodiscard]] Result<std::vector<FeaturePoints>> parse_feature_points(
     std::string_view text, const std::filesystem::path& file = {},
-    const std::optional<LengthUnit>& unit = {});
+    const std::optional<LengthUnit>& unit = {}, PointMeaning meaning = PointMeaning::surface);
 
 }  // namespace frustum::metrology

@@ -7,10 +7,11 @@
 #include <string>
 
 #include "report/run_report.hpp"
+#include "report/wording.hpp"
 
 namespace frustum::report {
 
 // A <figure>.
-[[nodiscard]] std::string axis_figure(const AxisTrace& trace);
+[[nodiscard]] std::string axis_figure(const AxisTrace& trace, const Wording& words = Wording());
 
 }  // namespace frustum::report

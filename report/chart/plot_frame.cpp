@@ -17,6 +17,13 @@ Ticks ticks_of(const PlotScale& scale) {
   return own;
 }
 
+// With the decimal sign of the scale.
+std::string mark_text(double value, double step, const PlotScale& scale) {
+  std::string text = tick_text(value, step);
+  std::ranges::replace(text, '.', scale.decimal_sign);
+  return text;
+}
+
 }  // namespace
 
 void PlotRange::include(double value) {
@@ -49,7 +56,7 @@ void draw_x_scale(SvgDrawing& drawing, const PlotFrame& frame, const PlotScale& 
   for (const double value : marks.values) {
     const double x = frame.at(value, 0.0, scale, any).x;
     drawing.line({x, frame.top}, {x, frame.bottom}, "grid");
-    drawing.text({x, frame.bottom + 16.0}, tick_text(value, marks.step));
+    drawing.text({x, frame.bottom + 16.0}, mark_text(value, marks.step, scale));
   }
   drawing.line({frame.left, frame.bottom}, {frame.right, frame.bottom}, "axis");
   drawing.text({0.5 * (frame.left + frame.right), frame.bottom + 34.0}, scale.title);
@@ -65,7 +72,7 @@ void draw_y_scale(SvgDrawing& drawing, const PlotFrame& frame, const PlotScale& 
     const double y = frame.at(0.0, value, any, scale).y;
     const bool is_zero = std::abs(value) < 1e-9 * marks.step;
     if (is_left) drawing.line({frame.left, y}, {frame.right, y}, is_zero ? "zero" : "grid");
-    drawing.text({is_left ? x - 7.0 : x + 7.0, y + 4.0}, tick_text(value, marks.step),
+    drawing.text({is_left ? x - 7.0 : x + 7.0, y + 4.0}, mark_text(value, marks.step, scale),
                  is_left ? SvgAnchor::end : SvgAnchor::start);
   }
   drawing.line({x, frame.top}, {x, frame.bottom}, "axis");

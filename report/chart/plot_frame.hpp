@@ -24,6 +24,7 @@ struct PlotScale {
   std::string title{};
   int count = 6;      // ticks, about
   double step = 0.0;  // between ticks, where it is not found by their count
+  char decimal_sign = '.';
 };
 
 struct PlotFrame {

@@ -77,7 +77,7 @@ void draw_grid(SvgDrawing& drawing, const PolarScale& scale) {
 }
 
 // A ruler under the circle, whose marks are right under the rings at 0 degrees.
-void draw_ruler(SvgDrawing& drawing, const PolarScale& scale) {
+void draw_ruler(SvgDrawing& drawing, const PolarScale& scale, const Wording& words) {
   constexpr double kY = 434.0;
   const auto x = [&](int k) { return kCentre.x + scale.pixels(k * scale.division); };
   drawing.line({x(-scale.rings), kY}, {x(scale.rings), kY}, "axis");
@@ -85,9 +85,11 @@ void draw_ruler(SvgDrawing& drawing, const PolarScale& scale) {
     drawing.line({x(k), kY - 4.0}, {x(k), kY + 4.0}, "axis");
     if (k % scale.rings != 0) continue;  // there is no room for the numbers between
     const std::string sign = k > 0 ? "+" : "";
-    drawing.text({x(k), kY + 19.0}, sign + tick_text(k * scale.division, scale.division));
+    drawing.text({x(k), kY + 19.0},
+                 sign + words.number(tick_text(k * scale.division, scale.division)));
   }
-  drawing.text({x(-scale.rings) - 10.0, kY + 4.0}, "deviation, µm", SvgAnchor::end);
+  drawing.text({x(-scale.rings) - 10.0, kY + 4.0}, words("deviation, {0}", words.symbol("um")),
+               SvgAnchor::end);
 }
 
 // A point that does not follow on the one before breaks the line.
@@ -142,8 +144,12 @@ bool has_polar_chart(const metrology::CharacteristicResult& characteristic) {
          characteristic.plot_angle.size() == characteristic.plot_deviation.size();
 }
 
-std::string polar_figure(const metrology::CharacteristicResult& characteristic) {
-  const std::vector<PolarRound> rounds = polar_rounds(characteristic);
+std::string polar_figure(const metrology::CharacteristicResult& characteristic,
+                         const Wording& words) {
+  std::vector<PolarRound> rounds = polar_rounds(characteristic);
+  for (PolarRound& round : rounds) {
+    for (PolarPoint& p : round) p.deviation = words.shown(p.deviation, "um");
+  }
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const PolarRound& round : rounds) {
     for (const PolarPoint& p : round) {
@@ -154,20 +160,20 @@ std::string polar_figure(const metrology::CharacteristicResult& characteristic) 
   if (!(high >= low)) low = high = 0.0;
   const PolarScale scale = scale_of(low, high);
   const std::string facts =
-      fmt::format("highest less lowest point {} µm, {} µm per division", fixed_text(high - low, 3),
-                  tick_text(scale.division, scale.division));
-  SvgDrawing drawing(kWidth, kHeight,
-                     fmt::format("Polar chart of {}: {}", characteristic.name, facts));
+      words("highest less lowest point {0} {2}, {1} {2} per division",
+            words.fixed(high - low, words.is_inch() ? 2 : 3),
+            words.number(tick_text(scale.division, scale.division)), words.symbol("um"));
+  SvgDrawing drawing(kWidth, kHeight, words("Polar chart of {0}: {1}", characteristic.name, facts));
   draw_grid(drawing, scale);
   drawing.circle(kCentre, scale.pixels(high), "extreme");
   drawing.circle(kCentre, scale.pixels(low), "extreme");
   for (std::size_t k = 0; k < rounds.size(); ++k) {
     drawing.polyline(line_of(rounds[k], scale), series_class("trace", k));
   }
-  draw_ruler(drawing, scale);
+  draw_ruler(drawing, scale, words);
   std::vector<std::string> names;
   for (std::size_t k = 0; k < rounds.size() && rounds.size() > 1; ++k) {
-    names.push_back(fmt::format("section {}", k));
+    names.push_back(words("section {0}", k));
   }
   return fmt::format(
       "<figure class=\"polar\"><figcaption><b>{}</b><span class=\"scale\">{}</span>{}</figcaption>"
@@ -197,7 +203,7 @@ std::string polar_traces_figure(const std::string& title, const std::vector<Pola
     names.push_back(traces[k].name);
     marks.emplace_back(traces[k].dashed ? "dashed" : "");
   }
-  draw_ruler(drawing, scale);
+  draw_ruler(drawing, scale, Wording());
   return fmt::format(
       "<figure class=\"polar\"><figcaption><b>{}</b><span class=\"scale\">{}</span>{}</figcaption>"
       "\n{}</figure>\n",

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "metrology/measurement.hpp"
+#include "report/wording.hpp"
 
 namespace frustum::report {
 
@@ -25,7 +26,8 @@ using PolarRound = std::vector<PolarPoint>;
 // Enough points for a chart.
 [[nodiscard]] bool has_polar_chart(const metrology::CharacteristicResult& characteristic);
 // A <figure>: name, peak to valley, division, a key where there are several rounds, the drawing.
-[[nodiscard]] std::string polar_figure(const metrology::CharacteristicResult& characteristic);
+[[nodiscard]] std::string polar_figure(const metrology::CharacteristicResult& characteristic,
+                                       const Wording& words = Wording());
 
 // A trace about the nominal circle; dashed: fitted.
 struct PolarTrace {

@@ -22,8 +22,9 @@ bool same_lines(const metrology::CharacteristicResult& a,
                     [](const auto& p, const auto& q) { return p.feature == q.feature; });
 }
 
-double fitted(const LineProfile& line, double position) {
-  return kUmPerMm * (line.fit_offset + line.fit_slope * position);
+// In the shown unit; the position in mm.
+double fitted(const LineProfile& line, double position, const Wording& words) {
+  return words.shown(kUmPerMm * (line.fit_offset + line.fit_slope * position), "um");
 }
 
 PlotRange positions_of(const LineProfile& line) {
@@ -49,22 +50,31 @@ bool has_profile_chart(const RunReport& report,
   });
 }
 
-std::string profile_figure(const metrology::CharacteristicResult& characteristic) {
+std::string profile_figure(const metrology::CharacteristicResult& characteristic,
+                           const Wording& words) {
+  const auto um = [&](double mm) { return words.shown(mm * kUmPerMm, "um"); };
   PlotRange along = PlotRange::empty(), across = PlotRange::empty();
   across.include(0.0);
   for (const LineProfile& line : characteristic.profiles) {
     const PlotRange own = positions_of(line);
     along.include(own.low);
     along.include(own.high);
-    for (const double d : line.deviation) across.include(d * kUmPerMm);
-    for (const double end : {own.low, own.high}) across.include(fitted(line, end));
+    for (const double d : line.deviation) across.include(um(d));
+    for (const double end : {own.low, own.high}) across.include(fitted(line, end, words));
   }
   constexpr double kLeastAcross = 0.1;  // um: errors of a few nanometres do not look like errors
-  const PlotScale on_x{along.widened(0.06, 1e-6), "position along, mm", 5};
-  const PlotScale on_y{across.widened(0.06, kLeastAcross), "error across, µm", 5};
+  PlotScale on_x{along.widened(0.06, 1e-6), words("position along, {0}", words.symbol("mm")), 5};
+  PlotScale on_y{across.widened(0.06, words.shown(kLeastAcross, "um")),
+                 words("error across, {0}", words.symbol("um")), 5};
   const PlotFrame frame{330.0, 216.0, 54.0, 324.0, 8.0, 176.0};
+  // Positions stay in mm until they are drawn.
+  on_x.range = {words.shown(on_x.range.low, "mm"), words.shown(on_x.range.high, "mm")};
+  on_x.decimal_sign = on_y.decimal_sign = words.decimal_sign();
+  const auto place = [&](double position, double value) -> SvgPoint {
+    return frame.at(words.shown(position, "mm"), value, on_x, on_y);
+  };
   SvgDrawing drawing(frame.width, frame.height,
-                     "Profiles of the two lines of " + characteristic.name);
+                     words("Profiles of the two lines of {0}", characteristic.name));
   draw_x_scale(drawing, frame, on_x);
   draw_y_scale(drawing, frame, on_y);
   std::vector<std::string> names;
@@ -72,11 +82,11 @@ std::string profile_figure(const metrology::CharacteristicResult& characteristic
     const LineProfile& line = characteristic.profiles[k];
     names.push_back(line.feature);
     const PlotRange ends = positions_of(line).widened(0.04, 0.0);
-    drawing.polyline({frame.at(ends.low, fitted(line, ends.low), on_x, on_y),
-                      frame.at(ends.high, fitted(line, ends.high), on_x, on_y)},
+    drawing.polyline({place(ends.low, fitted(line, ends.low, words)),
+                      place(ends.high, fitted(line, ends.high, words))},
                      series_class("fit", k));
     for (std::size_t i = 0; i < line.position.size(); ++i) {
-      const SvgPoint at = frame.at(line.position[i], line.deviation[i] * kUmPerMm, on_x, on_y);
+      const SvgPoint at = place(line.position[i], um(line.deviation[i]));
       if (!std::isfinite(at.x) || !std::isfinite(at.y)) continue;
       drawing.circle(at, 2.8, series_class(k % 2 == 0 ? "dot" : "ring", k));
     }
@@ -84,8 +94,8 @@ std::string profile_figure(const metrology::CharacteristicResult& characteristic
   return fmt::format(
       "<figure class=\"profile\"><figcaption><b>{}</b> <span class=\"scale\">{} {}</span>{}"
       "</figcaption>\n{}</figure>\n",
-      html_text(characteristic.name), result_text(characteristic),
-      html_text(unit_symbol(characteristic.unit)), series_key(names, {"dot", "ring"}),
+      html_text(characteristic.name), words.result(characteristic),
+      html_text(words.symbol(characteristic.unit)), series_key(names, {"dot", "ring"}),
       drawing.html());
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "report/run_report.hpp"
+#include "report/wording.hpp"
 
 namespace frustum::report {
 
@@ -15,6 +16,7 @@ namespace frustum::report {
 [[nodiscard]] bool has_profile_chart(const RunReport& report,
                                      const metrology::CharacteristicResult& characteristic);
 // A <figure>.
-[[nodiscard]] std::string profile_figure(const metrology::CharacteristicResult& characteristic);
+[[nodiscard]] std::string profile_figure(const metrology::CharacteristicResult& characteristic,
+                                         const Wording& words = Wording());
 
 }  // namespace frustum::report

@@ -8,10 +8,13 @@
 
 #include "core/whole_file.hpp"
 #include "report/exchange/characteristics_csv.hpp"
+#include "report/exchange/charts_svg.hpp"
 #include "report/exchange/dfq_report.hpp"
+#include "report/exchange/dmis_report.hpp"
 #include "report/exchange/json_report.hpp"
 #include "report/exchange/junit_report.hpp"
 #include "report/exchange/qif_results.hpp"
+#include "report/exchange/sections_dxf.hpp"
 
 namespace frustum::report {
 namespace {
@@ -23,9 +26,10 @@ struct FormatRow {
   ExportFormat format;
 };
 constexpr std::array kFormats{
-    FormatRow{".qif", ExportFormat::qif}, FormatRow{".csv", ExportFormat::csv},
+    FormatRow{".qif", ExportFormat::qif},   FormatRow{".csv", ExportFormat::csv},
     FormatRow{".json", ExportFormat::json}, FormatRow{".xml", ExportFormat::junit},
-    FormatRow{".dfq", ExportFormat::dfq}};
+    FormatRow{".dfq", ExportFormat::dfq},   FormatRow{".dmo", ExportFormat::dmis},
+    FormatRow{".dxf", ExportFormat::dxf},   FormatRow{".svg", ExportFormat::svg}};
 
 std::string lower_extension(const fs::path& file) {
   std::string extension = file.extension().string();
@@ -83,6 +87,12 @@ std::string exported(ExportFormat format, const RunReport& report,
       return junit_report(report, plan);
     case ExportFormat::dfq:
       return dfq_report(report);
+    case ExportFormat::dmis:
+      return dmis_report(report, plan);
+    case ExportFormat::dxf:
+      return sections_dxf(report.measurement);
+    case ExportFormat::svg:
+      return charts_svg(report);
   }
   return {};
 }

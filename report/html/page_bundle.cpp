@@ -51,12 +51,11 @@ std::string_view page_script() {
   return between(frustum_page_script_begin, frustum_page_script_end);
 }
 
-std::string filled_page(std::string_view title, std::string_view body, std::string_view data) {
-  const std::map<std::string_view, std::string_view> contents = {{"title", title},
-                                                                 {"style", page_style()},
-                                                                 {"body", body},
-                                                                 {"data", data},
-                                                                 {"script", page_script()}};
+std::string filled_page(std::string_view title, std::string_view body, std::string_view data,
+                        std::string_view language) {
+  const std::map<std::string_view, std::string_view> contents = {
+      {"language", language}, {"title", title}, {"style", page_style()},
+      {"body", body},         {"data", data},   {"script", page_script()}};
   // Each place of the template is filled once; what is filled in is not looked at again.
   std::string page;
   std::string_view rest = page_template();

@@ -8,8 +8,8 @@
 
 namespace frustum::report {
 
-// report/page/template.html: HTML with the places {{title}}, {{style}}, {{body}}, {{data}},
-// {{script}}.
+// report/page/template.html: HTML with the places {{language}}, {{title}}, {{style}}, {{body}},
+// {{data}}, {{script}}.
 [[nodiscard]] std::string_view page_template();
 // One style sheet without outside references.
 [[nodiscard]] std::string_view page_style();
@@ -18,6 +18,6 @@ namespace frustum::report {
 
 // The template filled: title and body are HTML, data is JSON that may be in a script element.
 [[nodiscard]] std::string filled_page(std::string_view title, std::string_view body,
-                                      std::string_view data);
+                                      std::string_view data, std::string_view language = "en");
 
 }  // namespace frustum::report

@@ -42,12 +42,12 @@ constexpr std::array kSymbols{
 
 }  // namespace
 
-std::string tolerance_symbol(std::string_view kind) {
+std::string tolerance_symbol(std::string_view kind, const Wording& words) {
   for (const SymbolRow& row : kSymbols) {
     if (row.kind != kind) continue;
     return fmt::format(
         "<svg class=\"gps\" viewBox=\"0 0 24 24\" role=\"img\" aria-label=\"{}\">{}</svg>",
-        row.name, row.shape);
+        words.word(row.name), row.shape);
   }
   return {};
 }

@@ -7,9 +7,11 @@
 #include <string>
 #include <string_view>
 
+#include "report/wording.hpp"
+
 namespace frustum::report {
 
 // Inline SVG of the height of a line; `kind` as plans name it.
-[[nodiscard]] std::string tolerance_symbol(std::string_view kind);
+[[nodiscard]] std::string tolerance_symbol(std::string_view kind, const Wording& words);
 
 }  // namespace frustum::report

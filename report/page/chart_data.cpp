@@ -53,8 +53,17 @@ bool has_surface(const RunReport& report) {
 }
 
 std::string chart_data(const RunReport& report) {
+  const Wording words(report.style);
   Json json;
   json["surface"] = has_surface(report) ? surface_json(report.surface) : Json(nullptr);
+  // What the script says itself.
+  json["words"] = {
+      {"language", words.code()},
+      {"no_nominal", words("no nominal")},
+      {"length", {{"unit", words.symbol("mm")}, {"per_mm", words.shown(1.0, "mm")}}},
+      {"deviation", {{"unit", words.symbol("um")}, {"per_um", words.shown(1.0, "um")}}},
+      {"small_deviation",
+       {{"unit", words.symbol("nm")}, {"per_um", 1e3 * words.shown(1.0, "nm")}}}};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

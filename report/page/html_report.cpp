@@ -9,10 +9,11 @@
 namespace frustum::report {
 
 std::string html_report(const RunReport& report) {
-  const std::string title = html_text(report.title.empty() ? "Untitled run" : report.title);
+  const Wording words(report.style);
+  const std::string title = html_text(report.title.empty() ? words("Untitled run") : report.title);
   const std::string body = html_sections(report);
   const std::string data = json_in_script(chart_data(report));
-  return filled_page(title, body, data);
+  return filled_page(title, body, data, words.code());
 }
 
 Result<std::filesystem::path> write_html_report(const std::filesystem::path& path,

@@ -36,21 +36,33 @@ std::string section(std::string_view id, std::string_view heading, const std::st
   return fmt::format("<section id=\"{}\"><h2>{}</h2>\n{}</section>\n", id, heading, content);
 }
 
-std::string with_unit(const std::string& number, std::string_view unit) {
-  const std::string symbol = html_text(unit_symbol(unit));
+namespace {
+
+std::string with_symbol(const std::string& number, const std::string& unit) {
+  const std::string symbol = html_text(unit);
   if (number == "-") return "–";
   const std::string shown = number.front() == '-' ? "\u2212" + number.substr(1) : number;
   if (symbol.empty() || symbol == "°") return shown + symbol;
   return shown + "\u202f" + symbol;
 }
 
+}  // namespace
+
+std::string with_unit(const std::string& number, std::string_view unit) {
+  return with_symbol(number, unit_symbol(unit));
+}
+
+std::string with_unit(const std::string& number, std::string_view unit, const Wording& words) {
+  return with_symbol(number, words.symbol(unit));
+}
+
 std::string fact(std::string_view name, const std::string& value) {
   return value.empty() ? "" : fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", name, value);
 }
 
-std::string_view capital(metrology::Verdict verdict) {
-  constexpr std::array<std::string_view, 3> kWords{"Pass", "Fail", "Uncertain"};
-  return kWords.at(static_cast<std::size_t>(verdict));
+std::string capital(metrology::Verdict verdict, const Wording& words) {
+  constexpr std::array<Phrase, 3> kWords{"Pass", "Fail", "Uncertain"};
+  return words(kWords.at(static_cast<std::size_t>(verdict)));
 }
 
 }  // namespace frustum::report

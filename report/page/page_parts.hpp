@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "metrology/measurement.hpp"
+#include "report/wording.hpp"
 
 namespace frustum::report {
 
@@ -35,9 +36,12 @@ class Table {
 // A number as people write it: with a minus sign, a narrow space and the unit's symbol; "–" for
 // none.
 [[nodiscard]] std::string with_unit(const std::string& number, std::string_view unit);
+// The same with the unit that is shown for `unit`; the number is in that already.
+[[nodiscard]] std::string with_unit(const std::string& number, std::string_view unit,
+                                    const Wording& words);
 // <div><dt>name</dt><dd>value</dd></div>; nothing for an empty value.
 [[nodiscard]] std::string fact(std::string_view name, const std::string& value);
 // "Pass", "Fail", "Uncertain".
-[[nodiscard]] std::string_view capital(metrology::Verdict verdict);
+[[nodiscard]] std::string capital(metrology::Verdict verdict, const Wording& words);
 
 }  // namespace frustum::report

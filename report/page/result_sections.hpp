@@ -10,9 +10,9 @@
 
 namespace frustum::report {
 
-[[nodiscard]] std::string head_html(const RunReport& report);
-[[nodiscard]] std::string characteristics_html(const RunReport& report);
+[[nodiscard]] std::string head_html(const RunReport& report, const Wording& words);
+[[nodiscard]] std::string characteristics_html(const RunReport& report, const Wording& words);
 // Machine, probe, alignment, filter, uncertainty, decision rule; fingerprints of the files.
-[[nodiscard]] std::string measuring_html(const RunReport& report);
+[[nodiscard]] std::string measuring_html(const RunReport& report, const Wording& words);
 
 }  // namespace frustum::report

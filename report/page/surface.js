@@ -22,16 +22,21 @@ function colourTable(stops) {
   return table;
 }
 
-function micrometres(value) {
-  return `${value > 0 ? '+' : value < 0 ? '−' : ''}${Math.abs(value).toFixed(3)} µm`;
+// With the decimal sign of the page.
+const localised = (text, words) => words.language === 'de' ? text.replace('.', ',') : text;
+
+function deviationText(um, words) {
+  const {unit, per_um} = words.deviation;
+  const digits = localised(Math.abs(um * per_um).toFixed(per_um > 1 ? 1 : 3), words);
+  return `${um > 0 ? '+' : um < 0 ? '−' : ''}${digits} ${unit}`;
 }
 
-function drawLegend(legend, surface) {
+function drawLegend(legend, surface, words) {
   const span = surface.span_um;
-  const unit = span < 0.5 ? 'nm' : 'µm';
-  const shown = span < 0.5 ? span * 1000 : span;
-  const text = (share) =>
-      (share > 0 ? '+' : share < 0 ? '−' : '') + Number(Math.abs(share * shown).toPrecision(4));
+  const {unit, per_um} = span < 0.5 ? words.small_deviation : words.deviation;
+  const shown = span * per_um;
+  const text = (share) => (share > 0 ? '+' : share < 0 ? '−' : '') +
+      localised(String(Number(Math.abs(share * shown).toPrecision(4))), words);
   const strip = document.createElement('div');
   strip.className = 'strip';
   strip.style.background = `linear-gradient(to top, ${surface.stops.map(css).join(', ')})`;
@@ -95,7 +100,7 @@ export function addLights(scene, camera) {
 }
 
 // Says in `reading` what is under a click: nearest corner of the triangle that was hit.
-function readDeviations(element, camera, mesh, model, reading) {
+function readDeviations(element, camera, mesh, model, reading, words) {
   let pressed = null;
   element.addEventListener('pointerdown', (event) => pressed = [event.clientX, event.clientY]);
   element.addEventListener('pointerup', (event) => {
@@ -117,12 +122,16 @@ function readDeviations(element, camera, mesh, model, reading) {
     three.Triangle.getBarycoord(hit.point, a, b, c, weights);
     const value = ends.reduce(
         (sum, k, i) => sum + weights.getComponent(i) * model.deviation[model.corners[k]], 0);
-    const where = hit.point.toArray().map((x) => x.toFixed(2)).join(', ');
-    reading.textContent = `(${where}) mm: ${Number.isNaN(value) ? 'no nominal' : micrometres(value)}`;
+    const {unit, per_mm} = words.length;
+    const where = hit.point.toArray()
+        .map((x) => localised((x * per_mm).toFixed(per_mm < 1 ? 4 : 2), words))
+        .join(words.language === 'de' ? '; ' : ', ');
+    reading.textContent =
+        `(${where}) ${unit}: ${Number.isNaN(value) ? words.no_nominal : deviationText(value, words)}`;
   });
 }
 
-export async function drawSurface(element, surface) {
+export async function drawSurface(element, surface, words) {
   const figure = element.closest('figure');
   const view = viewIn(element);
   if (!view) return;
@@ -131,7 +140,7 @@ export async function drawSurface(element, surface) {
   const mesh = new three.Mesh(model.geometry, new three.MeshStandardMaterial(
       {vertexColors: true, roughness: 0.62, metalness: 0, side: three.DoubleSide}));
   view.scene.add(mesh);
-  readDeviations(view.canvas, view.camera, mesh, model, figure.querySelector('.reading'));
-  if (surface.deviation) drawLegend(figure.querySelector('.legend'), surface);
+  readDeviations(view.canvas, view.camera, mesh, model, figure.querySelector('.reading'), words);
+  if (surface.deviation) drawLegend(figure.querySelector('.legend'), surface, words);
   view.show(model.geometry.boundingBox, 1.06);
 }

@@ -22,11 +22,12 @@ const std::map<std::string, Room>& rooms() {
       {"programs", {6, {"milling", "cone", "step", "contour", "s_piece", "surface", "motion"}}},
       {"report", {6, {"html", "chart", "picture", "page", "player", "exchange", "sheet"}}},
       {"trials", {7, {"population"}}},
-      {"calibration", {8, {"identify", "design", "compensate"}}},
+      {"calibration", {8, {"identify", "design", "compensate", "history"}}},
       {"studies", {8, {"laws", "statistics", "engine", "samples", "answers"}}},
       {"app",
        {9,
-        {"job", "player", "dynamics", "benchmark", "view", "motion", "study", "serve", "command"}}},
+        {"job", "player", "dynamics", "benchmark", "view", "motion", "study", "serve", "history",
+         "command"}}},
       {"python", {.floor = 10, .is_library = false}},
   };
   return kRooms;

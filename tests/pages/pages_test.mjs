@@ -92,8 +92,12 @@ function makePages() {
       '--error', 'EZ0A=6um', '--out', 'r-test', '--quiet');
   run('motion', 'line', 'zx-yac', '--axis', 'X', '--targets=-180,-97,-31,42,111,178', '--error',
       'EXX=linear 10um + reversal 3um', '--noise', '0.3um', '--out', 'line', '--quiet');
+  run('run', 'piece/judged.toml', '--out', 'german', '--language', 'de', '--units', 'inch', '--quiet');
+  run('history', join(source, 'examples/history'), '--out', 'history', '--quiet');
   return {
     ...few,
+    german: 'german/report.html',
+    history: 'history/history.html',
     step: 'step/report.html',
     sensitivity: 'sensitivity/sensitivity.html',
     study: 'study/report.html',

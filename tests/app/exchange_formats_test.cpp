@@ -1,0 +1,116 @@
+// Results and points from one program to another and back, tools as drawings, the language of a
+// result: by the commands.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "tests/app/command_line.hpp"
+
+namespace frustum {
+namespace {
+
+using nlohmann::json;
+
+class ExchangeFormatsSystem : public CommandLine {
+ protected:
+  void write(const std::string& file, const std::string& text) const {
+    std::ofstream(folder_ / file, std::ios::binary) << text;
+  }
+
+  // A bore of three lobes, 1 um, and its plan.
+  void write_bore() const {
+    write("bore.plan.toml", R"(title = "Bore"
+alignment = "plan"
+[[feature]]
+name = "bore"
+kind = "cylinder"
+point = [1, 2, 0]
+axis = [0, 0, 1]
+radius = 20
+side = "inside"
+strategy = { sections = [0, 10], points_per_section = 24 }
+[[characteristic]]
+name = "bore.form"
+kind = "cylindricity"
+feature = "bore"
+tolerance = "5 um"
+[[characteristic]]
+name = "bore.diameter"
+kind = "diameter"
+feature = "bore"
+tolerance = "10 um"
+)");
+    std::string points = "feature,section,x,y,z\n";
+    for (int i = 0; i < 48; ++i) {
+      const double turn = 2.0 * std::numbers::pi * i / 24.0;
+      const double radius = 20.0 + 1e-3 * std::cos(3.0 * turn);
+      points += fmt::format("bore,{},{:.17g},{:.17g},{}\n", i / 24, 1.0 + radius * std::cos(turn),
+                            2.0 + radius * std::sin(turn), 10 * (i / 24));
+    }
+    write("p.csv", points);
+  }
+};
+
+TEST_F(ExchangeFormatsSystem, QifGoesBothWays) {
+  write_bore();
+  const Outcome first = run(
+      "measure --plan bore.plan.toml --points p.csv --export r.qif --export r.dmo --export r.dxf "
+      "--json");
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  const Outcome second = run("measure --plan bore.plan.toml --points r.qif --json");
+  ASSERT_EQ(second.exit_code, 0) << second.err;
+  const json one = json::parse(first.out)["characteristics"];
+  const json two = json::parse(second.out)["characteristics"];
+  ASSERT_EQ(one.size(), two.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i]["name"], two[i]["name"]);
+    EXPECT_NEAR(one[i]["value"].get<double>(), two[i]["value"].get<double>(), 1e-9);
+  }
+  // 2 um of three lobes, as was put in.
+  EXPECT_NEAR(two[0]["value"].get<double>(), 2.0, 0.02);
+  const std::string dmis = read(folder_ / "r.dmo");
+  EXPECT_NE(dmis.find("TA(BORE_FORM)=TOL/CYLCTY,0.00"), std::string::npos) << dmis;
+  EXPECT_NE(dmis.find("FA(BORE_P48)=FEAT/POINT,CART,"), std::string::npos);
+  EXPECT_NE(read(folder_ / "r.dxf").find("AC1009"), std::string::npos);
+  const Outcome unit = run("fit cylinder r.qif --unit inch");
+  EXPECT_EQ(unit.exit_code, 2);
+  EXPECT_NE(unit.err.find("states the unit 1 mm, --unit says"), std::string::npos) << unit.err;
+  EXPECT_EQ(run("fit cylinder r.qif --feature bore").exit_code, 0);
+}
+
+TEST_F(ExchangeFormatsSystem, ToolsAreDrawn) {
+  ASSERT_EQ(run("program cone --machine iwf-bc --out piece").exit_code, 0);
+  const Outcome listed = run("tools piece/job.toml --drawing t.dxf --json");
+  ASSERT_EQ(listed.exit_code, 0) << listed.err;
+  const json doc = json::parse(listed.out);
+  EXPECT_EQ(doc["schema"], "frustum/tools/1");
+  ASSERT_EQ(doc["tools"].size(), 1U);
+  EXPECT_NE(read(folder_ / "t.dxf").find("CUTTER"), std::string::npos);
+  EXPECT_EQ(run("tools piece/job.toml --drawing t.svg").exit_code, 0);
+  EXPECT_NE(read(folder_ / "t.svg").find("<svg xmlns"), std::string::npos);
+  EXPECT_EQ(run("tools piece/job.toml --drawing t.png").exit_code, 2);
+  EXPECT_EQ(run("tools piece/job.toml --drawing t.dxf --number 77").exit_code, 2);
+}
+
+TEST_F(ExchangeFormatsSystem, AResultSpeaksGermanAndInches) {
+  EXPECT_EQ(run("run piece/job.toml --language fr").exit_code, 2);
+  EXPECT_EQ(run("run piece/job.toml --units m").exit_code, 2);
+  ASSERT_EQ(run("program cone --machine iwf-bc --chord-tolerance 1 --out piece").exit_code, 0);
+  const Outcome german = run("run piece/job.toml --out de --language de --units inch");
+  ASSERT_LE(german.exit_code, 1) << german.err;
+  EXPECT_NE(german.out.find("Merkmal"), std::string::npos) << german.out;
+  EXPECT_NE(german.out.find(" uin"), std::string::npos) << german.out;
+  const std::string page = read(folder_ / "de/report.html");
+  for (const char* part : {"<html lang=\"de\">", "Messunsicherheit", "µin", "Messbedingungen"}) {
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  }
+  const json doc = json::parse(read(folder_ / "de/result.json"));
+  EXPECT_EQ(doc["characteristics"][0]["unit"], "um") << "documents stay in mm and English";
+  EXPECT_EQ(doc["evidence"]["measuring"]["source"].get<std::string>().find("Koordinaten"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace frustum

@@ -1,0 +1,111 @@
+// Points of QIF documents: by feature, in mm, whole sets, ranges and single points.
+#include "metrology/points/qif_points.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "metrology/points/point_file.hpp"
+
+namespace frustum::metrology {
+namespace {
+
+// A document with two items; `lists` are of their measurements, `sets` the point sets.
+std::string document(const std::string& lists, const std::string& sets, double metres = 0.001) {
+  return fmt::format(
+      R"(<?xml version="1.0" encoding="UTF-8"?>
+<QIFDocument xmlns="http://qifstandards.org/xsd/qif3" versionQIF="3.0.0" idMax="99">
+<FileUnits><PrimaryUnits><LinearUnit><SIUnitName>meter</SIUnitName><UnitName>unit</UnitName>
+<UnitConversion><Factor>{}</Factor></UnitConversion></LinearUnit></PrimaryUnits></FileUnits>
+<Features><FeatureItems n="2">
+<CircleFeatureItem id="4"><FeatureName>bore</FeatureName></CircleFeatureItem>
+<PlaneFeatureItem id="5"><FeatureName>top</FeatureName></PlaneFeatureItem>
+</FeatureItems></Features>
+<Results><MeasurementResultsSet n="1"><MeasurementResults id="6">
+<MeasuredFeatures n="2">{}</MeasuredFeatures><MeasuredPointSets n="1">{}</MeasuredPointSets>
+</MeasurementResults></MeasurementResultsSet></Results></QIFDocument>)",
+      metres, lists, sets);
+}
+
+std::string measured(int item, const std::string& references) {
+  return fmt::format(
+      "<CircleFeatureMeasurement id=\"7\"><FeatureItemId>{}</FeatureItemId><PointList n=\"1\">{}"
+      "</PointList></CircleFeatureMeasurement>",
+      item, references);
+}
+
+const std::string kWhole = "<WholePointSetId>8</WholePointSetId>";
+const std::string kSet =
+    "<MeasuredPointSet count=\"3\" id=\"8\"><Points>1 2 3  4 5 6\n7 8 9</Points>"
+    "<Compensated>true</Compensated></MeasuredPointSet>";
+
+TEST(QifPoints, AreThoseOfTheirFeatures) {
+  const auto found = parse_qif_points(document(
+      measured(4, kWhole) + measured(5, "<RangePointSetId range=\"2 3\">8</RangePointSetId>") +
+          measured(5, "<SinglePointSetId index=\"1\">8</SinglePointSetId>"),
+      kSet));
+  ASSERT_TRUE(found) << to_string(found.error().front());
+  const auto& features = found->features;
+  ASSERT_EQ(features.size(), 2U);
+  EXPECT_EQ(features[0].feature, "bore");
+  ASSERT_EQ(features[0].points.size(), 3U);
+  EXPECT_EQ(features[0].points[2], Vec3(7, 8, 9));
+  EXPECT_EQ(features[1].feature, "top");
+  ASSERT_EQ(features[1].points.size(), 3U);
+  EXPECT_EQ(features[1].points[0], Vec3(4, 5, 6));
+  EXPECT_EQ(features[1].points[2], Vec3(1, 2, 3)) << "a later measurement of the same feature";
+}
+
+TEST(QifPoints, AreInMillimetres) {
+  const auto inches = parse_qif_points(document(measured(4, kWhole), kSet, 0.0254));
+  ASSERT_TRUE(inches);
+  EXPECT_EQ(inches->features.front().points[0], Vec3(25.4, 50.8, 3 * 25.4));
+}
+
+TEST(QifPoints, AreFoundByTheExtensionOfAFile) {
+  const std::string text = document(measured(4, kWhole), kSet);
+  const auto found = parse_feature_points(text, "part.QIF");
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->front().file, "part.QIF");
+  EXPECT_FALSE(parse_feature_points(text, "part.qif", length_unit("inch")))
+      << "the document states its unit";
+}
+
+TEST(QifPoints, AreRefusedWhereTheyAreNotTheSurface) {
+  const auto id_of = [](const std::string& text) {
+    const auto found = parse_qif_points(text);
+    return found ? std::string() : std::string(found.error().front().id.text());
+  };
+  const auto replaced = [](const std::string& from, const std::string& to) {
+    std::string set = kSet;
+    set.replace(set.find(from), from.size(), to);
+    return document(measured(4, kWhole), set);
+  };
+  EXPECT_EQ(id_of("no xml"), "bad-xml");
+  EXPECT_EQ(id_of("<other/>"), "not-qif");
+  EXPECT_EQ(id_of("<QIFDocument/>"), "length-unit");
+  EXPECT_EQ(id_of(document("", "")), "file-without-points");
+  EXPECT_EQ(id_of(document(measured(9, kWhole), kSet)), "bad-reference");
+  EXPECT_EQ(id_of(document(measured(4, "<WholePointSetId>3</WholePointSetId>"), kSet)),
+            "bad-reference");
+  EXPECT_EQ(
+      id_of(document(measured(4, "<RangePointSetId range=\"2 4\">8</RangePointSetId>"), kSet)),
+      "bad-reference");
+  EXPECT_EQ(
+      id_of(document(measured(4, "<SinglePointSetId index=\"0\">8</SinglePointSetId>"), kSet)),
+      "bad-reference");
+  EXPECT_EQ(id_of(replaced("true", "false")), "not-compensated");
+  EXPECT_TRUE(parse_qif_points(replaced("true", "false"), PointMeaning::ball_centre));
+  EXPECT_FALSE(parse_qif_points(replaced("true", "true"), PointMeaning::ball_centre));
+  EXPECT_EQ(id_of(replaced("<Compensated>true</Compensated>",
+                           "<Compensations>true false true</Compensations>")),
+            "not-compensated");
+  EXPECT_EQ(id_of(replaced("<Points>", "<CoordinateSystemId>3</CoordinateSystemId><Points>")),
+            "own-frame");
+  EXPECT_EQ(id_of(replaced("9</Points>", "nan</Points>")), "bad-numbers");
+  EXPECT_EQ(id_of(replaced("9</Points>", "</Points>")), "bad-numbers");
+}
+
+}  // namespace
+}  // namespace frustum::metrology
