@@ -18,6 +18,7 @@
 #include "app/view/console.hpp"
 #include "core/counted.hpp"
 #include "core/file_set.hpp"
+#include "core/program_version.hpp"
 #include "core/whole_file.hpp"
 #include "parser/dialect.hpp"
 #include "report/player/player_page.hpp"
@@ -232,6 +233,7 @@ ordered_json document_of(const Played& played, const std::string& title, std::si
                      {"volume_mm3", step.volume}});
   }
   return {{"schema", "frustum/view/1"},
+          {"version", program_version()},
           {"title", title},
           {"machine", job.machine.name()},
           {"program", fs::path(job.piece.program_file).filename().string()},

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/history/history_views.hpp"
+#include "core/program_version.hpp"
 
 namespace frustum::app {
 namespace {
@@ -106,6 +107,7 @@ Json series_json(const HistorySeries& series, const History& history) {
 
 std::string history_json(const History& history) {
   Json json{{"schema", "frustum/history/1"},
+            {"version", program_version()},
             {"title", history.folder.title},
             {"machine", history.folder.machine},
             {"status", history.passes() ? "pass" : "fail"},

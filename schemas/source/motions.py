@@ -16,7 +16,8 @@ EVALUATION = or_null(table("Values of the standard, um", {
         "G_ccw_ls", "G_cw_ls", "G_bi_ls", "G_ccw_mz", "G_cw_mz", "G_bi_mz", "D_mean_radial", "F_ccw_max", "F_ccw_min",
         "F_cw_max", "F_cw_min"]},
     "centre_bi": list_of(NUMBER, ""), "signature": _TERMS, "signature_sd": _TERMS, "signature_sd_per_um": _TERMS,
-    "contribution_um": map_of(NUMBER, "G of each term alone"), "contribution_share": map_of(NUMBER, ""),
+    "contribution_um": map_of(NUMBER, "G of each term alone; null: not separated"),
+    "contribution_share": map_of(NUMBER, ""),
     "residual_rms": NUMBER,
     "spikes": or_null(table("Reversal spikes", {
         "X": _SPIKE, "Y": _SPIKE, "Z": _SPIKE, "signature_without": map_of(NUMBER, ""), "residual_rms": NUMBER})),

@@ -289,6 +289,42 @@ ERROR_NAMES = document("errors", "Errors of a machine", "frustum errors --json",
 
 SERVE = document("serve", "Served folder", "frustum serve --json", {"url!": text("")})
 
+TOOLS = document("tools", "Tools of a job", "frustum tools --json", {"tools!": tables("", {
+    "number!": count(""), "name!": text(""), "type!": text(""), "description!": text("In words")})})
+
+VIEW = document("view", "Played program", "frustum view --json, view.json", {
+    "title!": text(""), "machine!": text(""), "program!": text("Its file"), "lines!": count("Of the program"),
+    "blocks!": count("That move"), "cycle_time_s!": number(""), "errors!": map_of(text(""), "Injected"),
+    "largest_deviation_um!": number("Of the tip"), "points!": count("Of the path on the page"),
+    "points_left_out!": count("Nearer to the way between others than the chord"), "chord_um!": number(""),
+    "steps!": tables("Of the workpiece", {
+        "time_s!": number(""), "line!": count("Of the program"), "triangles!": count(""), "volume_mm3!": NUMBER}),
+    "page_bytes!": count("")})
+
+_CHANGES = tables("", {"from!": text("Date"), "to!": text("Date"), "days!": number(""), "change!": number("")})
+HISTORY = document("history", "Results over their dates", "frustum history --json, history.json", {
+    "title!": text(""), "machine!": text(""), "status!": choice(["pass", "fail"]),
+    "baseline!": count("Results that the limits are of; 0: all"), "since!": or_null(text("Date")),
+    "results!": tables("Files", {
+        "file!": text(""), "document!": text("Its form"), "title!": text(""), "date!": text(""), "date_from!": text(""),
+        "state!": or_null(choice(["as-found", "as-left"])), "state_from!": or_null(text("")),
+        "without_value!": texts("What the file has no value of")}),
+    "series!": tables("Values of one name", {
+        "name!": text(""), "group!": text(""), "kind!": text(""), "unit!": text(""), "nominal!": NUMBER,
+        "points!": tables("By date", {
+            "date!": text(""), "state!": or_null(choice(["as-found", "as-left"])), "value!": NUMBER,
+            "half_width_95!": known("Of its interval"), "moving_range!": NUMBER, "tolerance!": NUMBER,
+            "judged!": flag("By the limits"), "beyond!": texts("Limits")}),
+        "counted!": count("Values that limits and trend are of"),
+        "limits!": or_null(table("Individuals and moving ranges", {
+            "mean!": number(""), "mean_moving_range!": number(""), "lower!": number(""), "upper!": number(""),
+            "upper_moving_range!": number(""), "values!": count(""), "provisional!": flag("Of fewer than 20")})),
+        "trend!": or_null(table("Straight line", {
+            "from!": text("Date"), "per_day!": number(""), "half_width_95_per_day!": NUMBER,
+            "significant!": flag(""), "residual_sd!": NUMBER})),
+        "adjustments!": _CHANGES, "drifts!": _CHANGES, "remark!": text("On the limits")}),
+    "failures!": texts("What is beyond"), "diagnostics!": DIAGNOSTICS})
+
 _COMMAND = {"$ref": "#/$defs/command"}
 REFERENCE = document("reference", "Commands and options", "frustum reference --json", {"program!": _COMMAND}, defs={
     "command": table("", {
@@ -298,4 +334,5 @@ REFERENCE = document("reference", "Commands and options", "frustum reference --j
         "commands!": list_of(_COMMAND, "")})})
 
 RESULTS = [FAILURE, RESULT, CUT, SNAPSHOTS, PROGRAM, POSE, PARSE, CHECK, CHECK_FILES, DIFF, POST, COMPENSATE, FIT,
-           CMM_TEST, CMM_SERIES, COMPARE, ERROR_NAMES, SERVE, REFERENCE]
+           CMM_TEST, CMM_SERIES, COMPARE, ERROR_NAMES, SERVE, TOOLS, VIEW, HISTORY,
+           REFERENCE]

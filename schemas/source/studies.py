@@ -81,7 +81,12 @@ IDENTIFICATION = Schema(
             "test!": text("File of the test"),
             "traces": texts("Files of measured readings"),
             "noise": text("Standard deviation of a reading, with its unit"),
-            "ball": text("Which ball of several"),
+            "angle": choice(["commanded", "feed"], "How recordings by time have their angles: over the capture, or "
+                            "between feed-in and feed-out", default="commanded"),
+            "overshoot": number("With feed: before and after the capture, deg; default 180 in XY, else 2", minimum=0,
+                                maximum=360),
+            "ball": text("exact: the ball in the spindle is on its axis; or a name: tests with the same share its offset"),
+            "ball_uncertainty": text("What is known of that offset beforehand: a standard deviation with its unit"),
             "hours": positive("Of a design"),
         }),
         "unknown": table("What is to be found", {
@@ -125,3 +130,17 @@ VALUES = Schema(
         })), "By the names of the plan's characteristics", minProperties=1),
     }),
     readers=["app/job/measured_values.cpp"])
+
+HISTORY = Schema(
+    "history", "1.0", "Index of results over their dates",
+    table("For frustum history: which files are read", {
+        "title": text("Of the report"),
+        "machine": text("Of results that name none"),
+        "result!": tables("Results", {
+            "date": text("Of the measurement, 2026-03-02; default: what the document or its name states"),
+            "file!": text("Document of run, measure, identify or motion"),
+            "state": choice(["as-found", "as-left"], "Of the machine, beside an adjustment"),
+        }),
+    }),
+    files="history.toml",
+    readers=["app/history/result_folder.cpp"])

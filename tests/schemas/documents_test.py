@@ -70,6 +70,9 @@ DOCUMENTS = [
     "motion run circle/test.toml",
     "benchmark score {root}/benchmark {root}/benchmark/submissions/frustum-prior",
     "reference",
+    "tools piece/job.toml",
+    "view piece/job.toml --snapshots 0 --out played",
+    "history {root}/examples/history --out history",
     "compare part_0001.ply part_0001.ply --tolerance 1um",
 ]
 # What takes seconds, in `make laws`.

@@ -23,6 +23,8 @@ def kind_of(document):
         return "identification"
     if {"job", "motion", "target"} & set(document):
         return "study"
+    if "result" in document:
+        return "history"
     if "measured" in document:
         return "values"
     if "errors" in document:

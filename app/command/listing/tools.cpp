@@ -11,6 +11,7 @@
 #include "app/command/listing/listing_commands.hpp"
 #include "app/job/job.hpp"
 #include "app/view/console.hpp"
+#include "core/program_version.hpp"
 #include "core/whole_file.hpp"
 #include "cutter/body/cutter.hpp"
 #include "report/exchange/tool_drawing.hpp"
@@ -77,7 +78,10 @@ int list_tools(const ToolsOptions& options) {
                     {"description", cutter::description(tool)}});
   }
   if (options.json) {
-    std::cout << nlohmann::ordered_json{{"schema", "frustum/tools/1"}, {"tools", list}}.dump(2)
+    std::cout << nlohmann::ordered_json{{"schema", "frustum/tools/1"},
+                                        {"version", program_version()},
+                                        {"tools", list}}
+                     .dump(2)
               << '\n';
   } else if (!options.quiet) {
     for (const auto& [number, tool] : job->piece.tools) {
