@@ -95,7 +95,7 @@ DynamicsTable modes_table(const DynamicModel& model, const DynamicsAnswer& answe
 }
 
 DynamicsTable rest_table(const DynamicModel& model, const DynamicsAnswer& answer) {
-  DynamicsTable table{"rest", "At rest", {"", ">x", ">y", ">z"}, {}, ""};
+  DynamicsTable table{"rest", "At rest", {"quantity", ">x", ">y", ">z"}, {}, ""};
   const auto row = [&](const std::string& name, const Vec3& v, int decimals) {
     table.rows.push_back({name, fixed_text(v.x(), decimals), fixed_text(v.y(), decimals),
                           fixed_text(v.z(), decimals)});

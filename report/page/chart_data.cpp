@@ -37,7 +37,7 @@ Json surface_json(const SurfacePicture& picture) {
   for (const Colour& stop : kDeviationStops) stops.push_back(colour_json(stop));
   const bool has_deviation =
       std::any_of(levels.begin(), levels.end(), [](auto v) { return v > 0; });
-  Json json = packed_mesh(picture.vertices, picture.triangles, kFineGrid);
+  Json json = json_of<Json>(packed_mesh(picture.vertices, picture.triangles, kFineGrid));
   json["deviation"] = has_deviation ? Json(packed_array(levels, 1)) : Json(nullptr);
   json["limit_um"] = limit * kUmPerMm;
   json["span_um"] = natural_span(picture) * kUmPerMm;

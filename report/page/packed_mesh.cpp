@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "report/page/packed_array.hpp"
 
 namespace frustum::report {
 
-nlohmann::ordered_json packed_mesh(std::span<const std::array<float, 3>> vertices,
-                                   std::span<const std::array<std::uint32_t, 3>> triangles,
-                                   double grid) {
+PackedMesh packed_mesh(std::span<const std::array<float, 3>> vertices,
+                       std::span<const std::array<std::uint32_t, 3>> triangles, double grid) {
   std::array<float, 3> low = vertices.front();
   std::array<float, 3> high = low;
   for (const auto& vertex : vertices) {
@@ -37,12 +35,12 @@ nlohmann::ordered_json packed_mesh(std::span<const std::array<float, 3>> vertice
   for (const auto& triangle : triangles) {
     corners.insert(corners.end(), triangle.begin(), triangle.end());
   }
-  return {{"vertices", vertices.size()},
-          {"triangles", triangles.size()},
-          {"origin", {low[0], low[1], low[2]}},
-          {"step", step},
-          {"positions", packed_array(positions, 3)},
-          {"corners", packed_array(corners, 3)}};
+  return {.vertices = vertices.size(),
+          .triangles = triangles.size(),
+          .origin = low,
+          .step = step,
+          .positions = packed_array(positions, 3),
+          .corners = packed_array(corners, 3)};
 }
 
 }  // namespace frustum::report

@@ -1,12 +1,13 @@
-// A triangle mesh as JSON for the page: positions on a grid over its longest side, packed.
+// A triangle mesh for the page: positions on a grid over its longest side, packed.
 //
 // Units: as the mesh, mm. Errors: none; precondition: at least one vertex.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <span>
+#include <string>
 
 namespace frustum::report {
 
@@ -15,9 +16,21 @@ namespace frustum::report {
 inline constexpr double kFineGrid = 262143.0;
 inline constexpr double kPictureGrid = 32767.0;
 
-// vertices, triangles, origin, step, positions, corners (report/page/surface.js reads them).
-[[nodiscard]] nlohmann::ordered_json packed_mesh(
-    std::span<const std::array<float, 3>> vertices,
-    std::span<const std::array<std::uint32_t, 3>> triangles, double grid);
+struct PackedMesh {
+  std::size_t vertices = 0, triangles = 0;
+  std::array<float, 3> origin{};
+  double step = 0.0;  // of the grid
+  std::string positions{}, corners{};
+};
+[[nodiscard]] PackedMesh packed_mesh(std::span<const std::array<float, 3>> vertices,
+                                     std::span<const std::array<std::uint32_t, 3>> triangles,
+                                     double grid);
+
+// As report/page/surface.js and report/player/machine.js read it.
+template <typename Json>
+[[nodiscard]] Json json_of(const PackedMesh& mesh) {
+  return {{"vertices", mesh.vertices}, {"triangles", mesh.triangles}, {"origin", mesh.origin},
+          {"step", mesh.step},         {"positions", mesh.positions}, {"corners", mesh.corners}};
+}
 
 }  // namespace frustum::report

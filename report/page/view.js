@@ -55,10 +55,10 @@ function listen(element, camera, controls, render) {
 // Scene and camera in `element`; nothing where the browser draws no 3D graphics: what is there without a script
 // remains. show(box, margin) begins: the box is in view from all sides; fit(box, margin) shows another one from the
 // side that was chosen last.
-export function viewIn(element) {
+export function viewIn(element, {antialias = true} = {}) {
   let renderer;
   try {
-    renderer = new three.WebGLRenderer({antialias: true, alpha: true, preserveDrawingBuffer: true});
+    renderer = new three.WebGLRenderer({antialias, alpha: true, preserveDrawingBuffer: true});
   } catch {
     return null;
   }

@@ -158,14 +158,14 @@ export class Controls {
     }
     if (remark.textContent) legend.append(remark);
     legend.hidden = false;
-    player.view.render();
+    player.drawSoon();
   }
 
   #bodies(how) {
     const player = this.#player;
     if (this.#selects.machine) this.#selects.machine.value = how;
     player.machine.drawBodies(how);
-    player.view.render();
+    player.drawSoon();
   }
 
   // From 1 to a million times, in steps of 1, 2 and 5.

@@ -54,6 +54,7 @@ class Player {
     this.showsPart = true;
     this.lastFrame = 0;
     this.lastPanel = 0;
+    this.isDue = false;
     this.frame = this.frame.bind(this);
     this.controls = new Controls(this);
   }
@@ -104,8 +105,17 @@ class Player {
     this.set(point, seconds > 0 ? Math.min(Math.max((this.time - begin) / seconds, 0), 1) : 1);
   }
 
+  // With the next frame of the screen: a hand on the time line asks more often than a slow computer draws.
+  drawSoon() {
+    if (this.isDue || this.playing) return;
+    this.isDue = true;
+    requestAnimationFrame(() => {
+      this.isDue = false;
+      this.view.render();
+    });
+  }
   redraw() {
-    this.view.render();
+    this.drawSoon();
     this.controls.show();
   }
   seek(time) {
@@ -123,7 +133,7 @@ class Player {
     const {times} = this.model;
     const seconds = times[this.point] - times[this.point - 1];
     this.set(this.point, seconds > 0 ? (this.time - times[this.point - 1]) / seconds : 1);
-    this.view.render();
+    this.drawSoon();
   }
   stepBlock(way) {
     this.pause();
@@ -211,10 +221,12 @@ class Player {
   fit(what) { this.view.fit(this.boxOf(what), MARGIN[what]); }
 
   pickAt(x, y, reach = REACH) {
+    this.view.scene.updateMatrixWorld();
     const box = this.view.canvas.getBoundingClientRect();
     return this.path.pick(this.view.camera, box.width, box.height, x - box.left, y - box.top, reach);
   }
   placeOfPoint(point) {
+    this.view.scene.updateMatrixWorld();
     const box = this.view.canvas.getBoundingClientRect();
     const {x, y} = this.path.placeOf(point, this.view.camera, box.width, box.height);
     return {x: x + box.left, y: y + box.top};
@@ -282,6 +294,15 @@ function colourBodies(player) {
   });
 }
 
+// Without a graphics card smooth edges would cost half of each frame.
+function drawsOnProcessor() {
+  const gl = document.createElement('canvas').getContext('webgl2');
+  const named = gl?.getExtension('WEBGL_debug_renderer_info');
+  const name = named ? String(gl.getParameter(named.UNMASKED_RENDERER_WEBGL)) : '';
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
+
 function publish(player) {
   const {model, view} = player;
   window.frustumView = {
@@ -312,7 +333,7 @@ function publish(player) {
 }
 
 export async function playProgram(element, data) {
-  const view = viewIn(element.querySelector('.view'));
+  const view = viewIn(element.querySelector('.view'), {antialias: !drawsOnProcessor()});
   if (!view) return;
   const [model, machine] = await Promise.all([modelOf(data), Machine.of(data.machine, data.tools)]);
   const steps = await Promise.all(data.steps.map(async ({time, mesh}) => {

@@ -63,7 +63,7 @@ ordered_json pose_json(const Pose& pose) {
 }
 
 ordered_json mesh_json(const PlayerMesh& mesh) {
-  return packed_mesh(mesh.vertices, mesh.triangles, kPictureGrid);
+  return json_of<ordered_json>(packed_mesh(mesh.vertices, mesh.triangles, kPictureGrid));
 }
 
 ordered_json shape_json(const PlayerShape& shape) {

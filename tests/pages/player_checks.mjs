@@ -18,9 +18,10 @@ async function press(browser, key, {code = key, shift = false} = {}) {
 async function checkRoundTrip({browser, expect}, page) {
   const lost = await browser.evaluate(`(() => {
     const lost = [];
-    for (const line of ${view}.linesWithMotion()) {
+    for (const [k, line] of ${view}.linesWithMotion().entries()) {
       const {point} = ${view}.pointOfLine(line);
       if (${view}.lineOfPoint(point).line !== line) lost.push(line);
+      if (k % 10 > 0) continue;
       ${view}.seekPoint(point);
       if (${view}.lineOfPoint(${view}.point).line !== line) lost.push(line);
     }

@@ -34,7 +34,8 @@ TEST(StudyPage, DrawsABoxAndADistributionOfEachCharacteristic) {
   page.characteristics = {form(), form()};
   const std::string html = study_html(page);
   EXPECT_THAT(html, HasSubstr("&lt;study&gt;"));
-  EXPECT_THAT(html, Not(HasSubstr("a<b")));
+  // The script compares such names of its own.
+  EXPECT_THAT(html.substr(0, html.find("<script")), Not(HasSubstr("a<b")));
   EXPECT_EQ(count(html, "class=\"box s1\""), 2U);
   EXPECT_EQ(count(html, "class=\"band s1\""), 2U);
   // A limit in each box plot and each distribution.
