@@ -314,7 +314,7 @@ TEST(ExportFile, GoesByTheExtension) {
   ASSERT_FALSE(unknown);
   EXPECT_EQ(to_string(unknown.error().front()),
             "error: a.pdf: '.pdf' names no format of results (hint: known: .qif .csv .json .xml "
-            ".dfq (.xml is JUnit))");
+            ".dfq .dmo .dxf .svg (.xml is JUnit))");
 }
 
 TEST(ExportFile, FindsOutBeforehandWhatCannotBeWritten) {

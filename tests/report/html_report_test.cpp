@@ -184,9 +184,9 @@ TEST(HtmlReport, Fault2_39_DrawsTheSymbolsOfIso1101) {
        {"straightness", "flatness", "roundness", "cylindricity", "line_profile", "surface_profile",
         "parallelism", "perpendicularity", "angularity", "position", "concentricity", "coaxiality",
         "symmetry", "circular_run_out", "total_run_out"}) {
-    EXPECT_THAT(tolerance_symbol(kind), HasSubstr("<svg")) << kind;
+    EXPECT_THAT(tolerance_symbol(kind, Wording()), HasSubstr("<svg")) << kind;
   }
-  EXPECT_EQ(tolerance_symbol("radius"), "");
+  EXPECT_EQ(tolerance_symbol("radius", Wording()), "");
 }
 
 TEST(HtmlReport, DrawsAProfileForEveryDistanceOfLines) {
