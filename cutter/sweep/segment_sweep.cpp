@@ -17,6 +17,8 @@ constexpr double kSameState = 1e-11;
 constexpr int kOftenHalved = 6;
 // A search that needs more than this runs along the surface within rounding.
 constexpr int kMostLooks = 20000;
+// A cutter this near to where its edge is on the ray touches it with the edge (mm of motion).
+constexpr double kOnEdge = 1e-9;
 // No bulge, as a number that can be divided by.
 constexpr double kNoBulge = 1e-300;
 
@@ -69,9 +71,9 @@ class Roof {
 
   // Smooth tops: where the slopes, taken as linear, pass zero. Edges: where the lines meet. Beside
   // a top that is found already: so near that from there on the fall is surely more than the bulge.
-  [[nodiscard]] double place_to_look(int depth) const {
+  [[nodiscard]] double place_to_look(int depth, bool has_edge) const {
     if (!holds_ || depth % 4 == 3) return 0.5;
-    if (has_ridge_ && depth % 4 == 2) return ridge_;
+    if (has_ridge_ && (depth % 4 == 2) != has_edge) return ridge_;
     const bool rises = rise_a_ > 0.0, falls = rise_b_ < 0.0;
     if (!rises && !falls) return 0.5;
     const double smooth = rises && falls ? rise_a_ / (rise_a_ - rise_b_) : (rises ? 1.0 : 0.0);
@@ -119,6 +121,7 @@ class HighestEnd {
       offer(from);
     } else {
       close_in(touched(from), touched(to), 0);
+      come_to_edge();
     }
   }
   // The same; returns the planes that touch the body at both.
@@ -126,6 +129,7 @@ class HighestEnd {
                                                            const ChordSample& to) {
     const Touched a = touched(from), b = touched(to);
     close_in(a, b, 0);
+    come_to_edge();
     return {a.plane, b.plane};
   }
 
@@ -158,11 +162,14 @@ class HighestEnd {
     best_face_ = face;
   }
 
-  void close_in(const Touched& a, const Touched& b, int depth) {
+  // `is_sought`: a smooth top between them has been looked for.
+  void close_in(const Touched& a, const Touched& b, int depth, bool is_sought = false) {
     note(a);
     note(b);
     const double dt = b.t - a.t;
     if (depth > 60 || dt * motion_.travel() < kSameState) return;
+    const bool has_edge = is_edge_between(a, b);
+    if (has_edge && (best_t_ == a.t || best_t_ == b.t)) beside_edge_.emplace(a, b);
     if (motion_.turn() > 0.0 && surely_no_deeper(a, b)) return;
     const double along = std::max(a.plane.along, b.plane.along);
     const double enough = std::max(best_value_, floor_) + kSearchTolerance / along;
@@ -174,16 +181,17 @@ class HighestEnd {
       climb(a.t, b.t);
       return;
     }
-    if (depth == 0) {
+    if (!is_sought && !has_edge) {
+      is_sought = true;
       if (const auto top = summit_between(a, b, 0.25 * kSearchTolerance)) {
-        close_in(a, *top, 1);
-        close_in(*top, b, 1);
+        close_in(a, *top, depth + 1, true);
+        close_in(*top, b, depth + 1, true);
         return;
       }
       if (gap_) return;
     }
     if (++looks_ > kMostLooks) return;
-    const double x = roof.place_to_look(depth);
+    const double x = roof.place_to_look(depth, has_edge);
     const double t = a.t + std::clamp(x, 1e-3, 1.0 - 1e-3) * dt;
     const ChordSample middle = sample_at(t);
     if (!middle.chord) {
@@ -192,8 +200,38 @@ class HighestEnd {
     }
     const Touched m = touched(middle);
     note(m);
-    close_in(a, m, depth + 1);
-    close_in(m, b, depth + 1);
+    close_in(a, m, depth + 1, is_sought);
+    close_in(m, b, depth + 1, is_sought);
+  }
+
+  // The best is on one of two faces that make an edge, and the other end of its span on the other:
+  // on to where the cutter touches the ray with that edge, if it is higher there. The height hardly
+  // tells how far that is, where it rises slowly; the normal does.
+  void come_to_edge() {
+    constexpr int kSoon = 24;
+    if (!beside_edge_ || gap_ || !(best_value_ > floor_)) return;
+    auto& [a, b] = *beside_edge_;
+    if (best_t_ != a.t && best_t_ != b.t) return;
+    for (int i = 0; i < kSoon; ++i) {
+      const double dt = b.t - a.t;
+      const Roof roof(a.plane, a.plane.crossing(b.pose, ray_), b.plane,
+                      b.plane.crossing(a.pose, ray_), motion_, dt);
+      const double x = i % 4 == 3 ? 0.5 : roof.place_to_look(0, true);
+      const double t = a.t + std::clamp(x, 0.0, 1.0) * dt;
+      if (!(std::min(t - a.t, b.t - t) * motion_.travel() > kOnEdge)) return;
+      const ChordSample middle = sample_at(t);
+      if (!middle.chord) return;
+      const Touched m = touched(middle);
+      note(m);
+      if (m.face != a.face && m.face != b.face) return;
+      (m.face == a.face ? a : b) = m;
+    }
+  }
+
+  // The ray leaves by two faces that make an edge.
+  [[nodiscard]] static bool is_edge_between(const Touched& a, const Touched& b) {
+    constexpr double kSharp = 0.2;  // of the normals' axial parts
+    return a.face != b.face && std::abs(a.plane.axial - b.plane.axial) > kSharp;
   }
 
   // How fast the end of the chord moves there, counted upwards: the envelope condition where 0.
@@ -329,6 +367,8 @@ class HighestEnd {
   double best_t_ = 0.0;
   ProfileFace best_face_ = kTopFace;
   std::optional<double> gap_{};
+  // The last two samples that the best was one of, and that an edge is between.
+  std::optional<std::pair<Touched, Touched>> beside_edge_{};
   int looks_ = 0;
 };
 
