@@ -13,23 +13,23 @@ namespace {
 
 using K = CharacteristicKind;
 
-Result<CharacteristicResult> evaluated_of(const PlannedCharacteristic& planned,
+Result<CharacteristicResult> part_evaluated(const PlannedCharacteristic& planned,
                                           const FittedFeature& feature) {
   return evaluate(planned, std::span(&feature, 1));
 }
 
 // Points on circles about z: angles, heights and sections of a round surface.
-struct Spot {
+struct PartSpot {
   double angle = 0.0;
   double height = 0.0;
   std::size_t section = 0;
   double off = 0.0;  // mm, out of the axis
 };
 FittedFeature round_one(const PlannedFeature& planned, const Pose& lies,
-                        const std::vector<Spot>& spots) {
+                        const std::vector<PartSpot>& spots) {
   std::vector<Vec3> points;
   std::vector<std::size_t> sections;
-  for (const Spot& s : spots) {
+  for (const PartSpot& s : spots) {
     const double r = planned.radius + s.off;
     points.push_back(
         lies.point(planned.point + Vec3(r * std::cos(s.angle), r * std::sin(s.angle), s.height)));
@@ -46,8 +46,8 @@ PlannedFeature circle() {
   return f;
 }
 
-std::vector<Spot> arc_of(double degrees, int sections) {
-  std::vector<Spot> spots;
+std::vector<PartSpot> arc_of(double degrees, int sections) {
+  std::vector<PartSpot> spots;
   for (int k = 0; k < sections; ++k) {
     for (int i = 0; i < 25; ++i) {
       spots.push_back(
@@ -66,7 +66,7 @@ TEST(CircumscribedForms, Attack3_5_OfLessThanHalfATurnAreRefused) {
       const FittedFeature found = round_one(planned, lies, arc_of(degrees, is_circle ? 1 : 3));
       for (const K kind : {K::roundness, K::cylindricity}) {
         if (is_circle && kind == K::cylindricity) continue;
-        const auto value = evaluated_of(
+        const auto value = part_evaluated(
             measured::characteristic(kind, {planned.name}, Criterion::minimum_circumscribed),
             found);
         if (value) {
@@ -85,9 +85,9 @@ TEST(InscribedForms, Attack3_11_OfArcsThatLeaveRoomForALargerOneAreRefused) {
   const Pose lies = measured::turned(Vec3(0.6, 0.8, 0.0), 0.1);
   for (const double shift : {0.0, 90.0, 180.0}) {
     for (const double degrees : {90.0, 360.0}) {
-      std::vector<Spot> spots = arc_of(degrees, 3);
-      for (Spot& s : spots) s.angle += shift * kRadPerDeg * static_cast<double>(s.section);
-      const auto value = evaluated_of(
+      std::vector<PartSpot> spots = arc_of(degrees, 3);
+      for (PartSpot& s : spots) s.angle += shift * kRadPerDeg * static_cast<double>(s.section);
+      const auto value = part_evaluated(
           measured::characteristic(K::cylindricity, {"pin"}, Criterion::maximum_inscribed),
           round_one(part, lies, spots));
       if (value) {
@@ -107,9 +107,9 @@ TEST(CircleForms, Attack3_6_HeightsOfACircleMakeNoForm) {
     const Pose lies{rotation_about(draws.direction(), draws.between(-0.3, 0.3)), draws.place(20.0)};
     const double arc = i % 3 == 0 ? 360.0 : i % 3 == 1 ? 90.0 : 20.0;
     const double height = i % 2 == 0 ? 0.0 : 0.05;
-    std::vector<Spot> spots = arc_of(arc, 1);
-    for (Spot& s : spots) s.height = draws.between(-height, height);
-    const auto value = evaluated_of(measured::characteristic(K::roundness, {"ring"}),
+    std::vector<PartSpot> spots = arc_of(arc, 1);
+    for (PartSpot& s : spots) s.height = draws.between(-height, height);
+    const auto value = part_evaluated(measured::characteristic(K::roundness, {"ring"}),
                                     round_one(planned, lies, spots));
     if (value) {
       EXPECT_LT(value->value, 1e-6) << arc << " deg, heights of " << height << " mm";
@@ -120,10 +120,10 @@ TEST(CircleForms, Attack3_6_HeightsOfACircleMakeNoForm) {
   }
   // What a CMM makes of heights is no reason to refuse a form.
   for (const double arc : {360.0, 20.0}) {
-    std::vector<Spot> spots = arc_of(arc, 1);
-    for (Spot& s : spots) s.height = draws.between(-0.002, 0.002);
-    for (Spot& s : spots) s.off = draws.between(-0.002, 0.002);
-    EXPECT_TRUE(evaluated_of(measured::characteristic(K::roundness, {"ring"}),
+    std::vector<PartSpot> spots = arc_of(arc, 1);
+    for (PartSpot& s : spots) s.height = draws.between(-0.002, 0.002);
+    for (PartSpot& s : spots) s.off = draws.between(-0.002, 0.002);
+    EXPECT_TRUE(part_evaluated(measured::characteristic(K::roundness, {"ring"}),
                              round_one(circle(), {}, spots)))
         << arc;
   }
@@ -133,26 +133,26 @@ TEST(CircleForms, Attack3_6_HeightsOfACircleMakeNoForm) {
 TEST(GeneratrixForms, Attack3_7_OfDenseSectionsAreNotMixed) {
   const PlannedFeature part = measured::cylinder("bore", {3, -4, 5}, Vec3::UnitZ(), 20.0);
   for (const int count : {36, 720, 1500}) {
-    std::vector<Spot> spots;
+    std::vector<PartSpot> spots;
     for (std::size_t k = 0; k < 4; ++k) {
       for (int i = 0; i < count; ++i) {
         const double angle = 2.0 * std::numbers::pi * i / count;
         spots.push_back({angle, 8.0 * static_cast<double>(k), k, 0.005 * std::cos(3.0 * angle)});
       }
     }
-    const auto value = evaluated_of(measured::characteristic(K::straightness, {"bore"}),
+    const auto value = part_evaluated(measured::characteristic(K::straightness, {"bore"}),
                                     round_one(part, {}, spots));
     ASSERT_TRUE(value) << to_string(value.error().front());
     EXPECT_LT(value->value, 1e-6) << count;
   }
   // Arcs without a generatrix: three neighbours of one section are none.
-  std::vector<Spot> spots;
+  std::vector<PartSpot> spots;
   for (std::size_t k = 0; k < 4; ++k) {
     for (int i = 0; i < 20; ++i)
       spots.push_back({1.5 * static_cast<double>(k) + 0.003 * i, 8.0 * static_cast<double>(k), k});
   }
   const auto none =
-      evaluated_of(measured::characteristic(K::straightness, {"bore"}), round_one(part, {}, spots));
+      part_evaluated(measured::characteristic(K::straightness, {"bore"}), round_one(part, {}, spots));
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().front().id.text(), "too-few-points");
 }
