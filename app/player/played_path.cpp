@@ -166,7 +166,7 @@ Result<PlayedPath> played_path(const Job& job, const trials::CommandedPiece& com
     kinematics::Setup measured = setup;
     for (auto& [number, tool] : measured.tools) tool.length_error = 0.0;
     auto ideal = kinematics::travel(job.machine, measured, commanded.program,
-                                          kinematics::GeometricErrors{}, {.path_bound = 1e-4});
+                                    kinematics::GeometricErrors{}, {.path_bound = 1e-4});
     compare_by_place(path_of(path, kept), std::move(ideal.path), played.points);
   }
   for (const PathPoint& point : played.points) {
