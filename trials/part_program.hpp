@@ -36,7 +36,7 @@ namespace frustum::trials {
                                                         const PartTouches& plan);
 
 // A remark on each touch that lies apart from the others of its feature: more than 0.05 mm and
-// fifty times what they scatter about their median. A speck or a wrong point, not the form of the part.
+// fifty times what they scatter about their median. A speck or a wrong point, not form.
 [[nodiscard]] Diagnostics touches_apart(const programs::TestPiece& piece, const PartTouches& plan,
                                         std::span<const double> readings);
 
