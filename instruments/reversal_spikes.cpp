@@ -92,8 +92,8 @@ class SpikeFit {
     return fit;
   }
 
-  // How much of the spike's shape there is near the two ends of the axis however it came there, root
-  // mean square of both, by least squares together with the terms and the spikes.
+  // How much of the spike's shape there is near the two ends of the axis however it came there,
+  // root mean square of both, by least squares together with the terms and the spikes.
   [[nodiscard]] double of_position(const Distances& distances, std::size_t axis) const {
     Eigen::MatrixXd columns(count(), kColumns + 2);
     columns.leftCols(kTerms) = terms_;

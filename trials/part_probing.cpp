@@ -69,7 +69,7 @@ double top_of(const Machine& machine, const TestPiece& piece, const PartTouches&
   return top;
 }
 
-// The highest while the rotary axes turn, each in its own time, anywhere between zero and the poses.
+// The highest while the rotary axes turn, each in its own time, between zero and the poses.
 double top_while_turning(const Machine& machine, const TestPiece& piece, const PartTouches& plan,
                          const Box& bounds) {
   constexpr double kStep = 5.0 * kRadPerDeg;

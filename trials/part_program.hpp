@@ -35,8 +35,8 @@ namespace frustum::trials {
                                                         const programs::TestPiece& piece,
                                                         const PartTouches& plan);
 
-// A remark on each touch that lies apart from the others of its feature: more than 0.05 mm and fifty
-// times what they scatter about their median. A speck or a wrong point, not the form of the part.
+// A remark on each touch that lies apart from the others of its feature: more than 0.05 mm and
+// fifty times what they scatter about their median. A speck or a wrong point, not form.
 [[nodiscard]] Diagnostics touches_apart(const programs::TestPiece& piece, const PartTouches& plan,
                                         std::span<const double> readings);
 

@@ -9,8 +9,8 @@
 //            of the unknowns of interest, the others being unknown beside them.
 //            Sets of higher rank go first; with a short rank only the directions identified count.
 //            What a set gives, whatever its rank, is bits = log2 det(1 + I) / 2, I the information
-//            about the unknowns of interest in sizes of theirs (priors or expected ones), the others
-//            being unknown beside them but for their priors: by how much it shrinks what is
+//            about the unknowns of interest in sizes of theirs (priors or expected ones), the
+//            others being unknown beside them but for their priors: by how much it shrinks what is
 //            expected of them
 // Units    : mm, rad; criteria dimensionless (log det a natural logarithm)
 // Shape    : every subset of at most kMostBlocks blocks

@@ -63,8 +63,8 @@ struct MotionObservations {
                                             const kinematics::GeometricErrors& errors,
                                             const Vec3& ds, int rounds = 3);
 
-// Three unknowns, X, Y and Z in the frame of the tool, for each ball of the tests; what is known of a
-// ball beforehand is what the first test that says it says.
+// Three unknowns, X, Y and Z in the frame of the tool, for each ball of the tests; what is known of
+// a ball beforehand is what the first test that says it says.
 [[nodiscard]] std::vector<Unknown> ball_unknowns(const std::vector<MeasuredMotion>& motions);
 
 // The set-up of each test at values of the unknowns, those of the causes one by one, then the
