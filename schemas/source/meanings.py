@@ -1,6 +1,14 @@
 """What names in documents mean wherever they are, for those that do not say it in their own place."""
 
 _TEXT = """
+adjustments: Between as found and as left | change: Of the value | chord_um: That the path is drawn within
+cycle_time_s: Of the whole program | date_from: Where the date was taken from | days: Between the two
+drifts: Between as left and as found | group: Which kind of result it is of | half_width_95_per_day: Of the slope's 95 % interval
+mean_moving_range: Of neighbouring results | moving_range: Difference from the result before | page_bytes: Size of the page
+per_day: Slope of the line | residual_sd: About the line | significant: Zero is not in the slope's interval
+state: as-found or as-left | state_from: Where the state was taken from | time_s: Into the program
+tolerance: Limit of the last result | tools: By their numbers | triangles: Of the mesh | type: Shape of the cutter
+upper_moving_range: Limit of moving ranges
 X: Of this axis | Y: Of this axis | Z: Of this axis | accept: Share that is accepted | acceptance_limit: Where the rule accepts
 actual: With the errors | after: With the compensated program | alias_of: ISO 230-1 name of the symbol
 allocation: Tolerances that would do | amplitude_um: Amplitude | angles_deg: Where it was read | at_deg: Where

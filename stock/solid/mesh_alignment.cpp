@@ -114,7 +114,9 @@ Result<MeshAlignment> laid_into(const FacetSolid& nominal, std::span<const Vec3>
       if (share * length(step) <= kStill * size) return found;
       const Pose next = system.moved(found.nominal_from_part, share * step);
       Linearised there = system.at(next);
-      if (!(there.sum < here.sum)) continue;
+      // A quarter of what the slope promises, so that steps to and fro do not count.
+      const double promised = 2.0 * share * here.right.dot(Eigen::VectorXd(step));
+      if (!(here.sum - there.sum > 0.25 * promised)) continue;
       const bool same = here.sum - there.sum <= kSame * here.sum;
       found.nominal_from_part = next;
       here = std::move(there);

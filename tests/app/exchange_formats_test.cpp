@@ -23,6 +23,10 @@ class ExchangeFormatsSystem : public CommandLine {
   void write_bore() const {
     write("bore.plan.toml", R"(title = "Bore"
 alignment = "plan"
+[probe]
+ball_diameter = 2
+clearance = 1
+reach = 1
 [[feature]]
 name = "bore"
 kind = "cylinder"

@@ -14,7 +14,7 @@ namespace {
 using K = CharacteristicKind;
 
 Result<CharacteristicResult> part_evaluated(const PlannedCharacteristic& planned,
-                                          const FittedFeature& feature) {
+                                            const FittedFeature& feature) {
   return evaluate(planned, std::span(&feature, 1));
 }
 
@@ -110,7 +110,7 @@ TEST(CircleForms, Attack3_6_HeightsOfACircleMakeNoForm) {
     std::vector<PartSpot> spots = arc_of(arc, 1);
     for (PartSpot& s : spots) s.height = draws.between(-height, height);
     const auto value = part_evaluated(measured::characteristic(K::roundness, {"ring"}),
-                                    round_one(planned, lies, spots));
+                                      round_one(planned, lies, spots));
     if (value) {
       EXPECT_LT(value->value, 1e-6) << arc << " deg, heights of " << height << " mm";
     } else {
@@ -124,7 +124,7 @@ TEST(CircleForms, Attack3_6_HeightsOfACircleMakeNoForm) {
     for (PartSpot& s : spots) s.height = draws.between(-0.002, 0.002);
     for (PartSpot& s : spots) s.off = draws.between(-0.002, 0.002);
     EXPECT_TRUE(part_evaluated(measured::characteristic(K::roundness, {"ring"}),
-                             round_one(circle(), {}, spots)))
+                               round_one(circle(), {}, spots)))
         << arc;
   }
 }
@@ -141,7 +141,7 @@ TEST(GeneratrixForms, Attack3_7_OfDenseSectionsAreNotMixed) {
       }
     }
     const auto value = part_evaluated(measured::characteristic(K::straightness, {"bore"}),
-                                    round_one(part, {}, spots));
+                                      round_one(part, {}, spots));
     ASSERT_TRUE(value) << to_string(value.error().front());
     EXPECT_LT(value->value, 1e-6) << count;
   }
@@ -151,8 +151,8 @@ TEST(GeneratrixForms, Attack3_7_OfDenseSectionsAreNotMixed) {
     for (int i = 0; i < 20; ++i)
       spots.push_back({1.5 * static_cast<double>(k) + 0.003 * i, 8.0 * static_cast<double>(k), k});
   }
-  const auto none =
-      part_evaluated(measured::characteristic(K::straightness, {"bore"}), round_one(part, {}, spots));
+  const auto none = part_evaluated(measured::characteristic(K::straightness, {"bore"}),
+                                   round_one(part, {}, spots));
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().front().id.text(), "too-few-points");
 }
