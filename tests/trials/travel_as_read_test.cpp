@@ -29,7 +29,7 @@ programs::TestPiece piece_of(const std::string& nc) {
 // Lines, arcs, a dwell, a word of the builder; more motions than one portion has.
 std::string wave(int blocks, const std::string& end = "M30\n") {
   std::string nc =
-      "G21 G90 G17 G54\nT1 M6\nG43 H1\nS12000 M3\nM31\nG0 X-50 Y-50 Z40\nG1 Z10 F3000\n";
+      "G21 G90 G17 G54\nT1 M6\nG43 H1\nS12000 M3\nM101\nG0 X-50 Y-50 Z40\nG1 Z10 F3000\n";
   for (int i = 0; i < blocks; ++i) {
     const double x = 100.0 * i / blocks - 50.0;
     nc += fmt::format("X{:.4f} Y{:.4f} Z{:.4f}\n", x, 20.0 * std::sin(0.1 * i),
