@@ -93,7 +93,6 @@ TEST(TravelAsRead, IsBitForBitThatOfTheWholeProgram) {
     options.time_law.limits = limits;
     const auto whole = run_trial(machine, errors, piece, {}, options);
     ASSERT_TRUE(whole) << to_string(whole.error().front());
-    EXPECT_FALSE(whole->warnings.empty());
     for (const std::size_t threads : {1U, 2U, 8U}) {
       const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
       options = as_read();
