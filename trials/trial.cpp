@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
-#include "core/sha256.hpp"
-#include "core/whole_file.hpp"
 #include "dynamics/servo.hpp"
 #include "kinematics/controller/controller.hpp"
 #include "kinematics/controller/source_lines.hpp"
@@ -15,6 +12,8 @@
 #include "parser/doubts.hpp"
 #include "parser/interpreter.hpp"
 #include "trials/cut_check.hpp"
+#include "trials/piece_reading.hpp"
+#include "trials/travel_as_read.hpp"
 
 namespace frustum::trials {
 namespace {
@@ -24,13 +23,6 @@ using kinematics::AxisSpans;
 using kinematics::GeometricErrors;
 using kinematics::Machine;
 using programs::TestPiece;
-
-Diagnostics in_file(Diagnostics diagnostics, const std::string& file) {
-  for (Diagnostic& d : diagnostics) {
-    if (d.file.empty() && d.line > 0) d.file = file;
-  }
-  return diagnostics;
-}
 
 AxisSpans ranges_of(const Machine& machine, std::span<const AxisSample> samples) {
   AxisSpans ranges;
@@ -60,28 +52,6 @@ std::vector<OperationTrace> traces_of(const Machine& machine, const TestPiece& p
     traces.push_back(std::move(trace));
   }
   return traces;
-}
-
-Result<std::vector<ProgramFile>> hashed(const std::vector<std::string>& files) {
-  std::vector<ProgramFile> known;
-  for (const std::string& file : files) {
-    const auto bytes = read_whole_file(file);
-    if (!bytes) return bytes.error();
-    known.push_back({file, sha256(*bytes)});
-  }
-  return known;
-}
-
-parser::InterpreterOptions reading_of(const Machine& machine, const TestPiece& piece) {
-  parser::InterpreterOptions options;
-  options.tools = called_tools_of(piece);
-  options.control = piece.reading.control.value_or(machine.controller().settings());
-  options.block_delete = piece.reading.block_delete;
-  // Subprograms are beside the program.
-  options.search_path = {std::filesystem::path(piece.program_file).parent_path()};
-  options.search_path.insert(options.search_path.end(), piece.reading.search_path.begin(),
-                             piece.reading.search_path.end());
-  return options;
 }
 
 Result<stock::Workpiece> cut(const TestPiece& piece, kinematics::ToolPath path) {
@@ -150,75 +120,19 @@ std::optional<Diagnostic> unstable_control(const TrialOptions& options,
   return instability(model, servo_system(model, program.start, 0.0));
 }
 
-}  // namespace
+// From the tool path on.
+struct CutAndMeasure {
+  const Machine& machine;
+  const TestPiece& piece;
+  const kinematics::CommandedProgram* program;  // null: what it meets is in the trial already
+  const metrology::CmmModel& cmm;
+  const TrialOptions& options;
 
-Result<kinematics::Travel> still_travel(const Machine& machine, const GeometricErrors& errors,
-                                        const kinematics::Setup& setup,
-                                        const kinematics::CommandedProgram& program,
-                                        const TrialOptions& options) {
-  if (auto unstable = unstable_control(options, program)) return *std::move(unstable);
-  return kinematics::travel(
-      machine, setup, program, errors,
-      {.path_bound = options.path_bound,
-       .time_law = options.time_law,
-       .servo_lag = options.servo_lag,
-       .time_step = options.has_dynamics() ? options.dynamics.time_step : 0.0});
-}
+  // `trial` has what is known of the program.
+  [[nodiscard]] Result<Trial> run(Trial trial, kinematics::Travel travel) const;
+};
 
-Result<kinematics::Travel> tool_travel(const Machine& machine, const GeometricErrors& errors,
-                                       const kinematics::Setup& setup,
-                                       const kinematics::CommandedProgram& program,
-                                       const TrialOptions& options) {
-  auto travel = still_travel(machine, errors, setup, program, options);
-  if (!travel || !options.has_dynamics()) return travel;
-  travel->path =
-      with_dynamics(*options.dynamic_model, setup, std::move(travel->path), options.dynamics);
-  return travel;
-}
-
-Result<CommandedPiece> command_piece(const Machine& machine, const TestPiece& piece,
-                                     const std::function<void(Stage)>& on_stage) {
-  begin(on_stage, Stage::parse);
-  const auto program = parser::parse_program(piece.program, piece.program_file, piece.dialect);
-  if (!program) return program.error();
-  auto interpreter = reading_of(machine, piece);
-  std::vector<std::string> opened;
-  interpreter.watch = [&opened](const parser::BlockAhead& ahead) {
-    const bool is_new =
-        ahead.file != nullptr && std::ranges::find(opened, *ahead.file) == opened.end();
-    if (is_new) opened.push_back(*ahead.file);
-    return true;
-  };
-  auto motions = parser::motions_of(*program, interpreter);
-  if (!motions) return motions.error();
-  auto files = hashed(opened);
-  if (!files) return files.error();
-  begin(on_stage, Stage::execute);
-  auto commanded = kinematics::command(machine, setup_of(piece), *motions);
-  if (!commanded) return in_file(commanded.error(), piece.program_file);
-  CommandedPiece result{.motions = *std::move(motions), .program = *std::move(commanded)};
-  result.program_files = *std::move(files);
-  result.operations = traces_of(machine, piece, kinematics::block_ends(result.program));
-  result.warnings = parser::doubts_of(result.motions);
-  auto& warned = result.program.warnings;
-  result.warnings.insert(result.warnings.end(), warned.begin(), warned.end());
-  result.warnings = in_file(std::move(result.warnings), piece.program_file);
-  return result;
-}
-
-Result<Trial> run_trial(const Machine& machine, const GeometricErrors& errors,
-                        const TestPiece& piece, const CommandedPiece& commanded,
-                        const metrology::CmmModel& cmm, const TrialOptions& options) {
-  const Diagnostics oversize = oversize_in(machine, errors, commanded.program);
-  if (has_error(oversize)) return oversize;
-  auto travelled = tool_travel(machine, errors, setup_of(piece), commanded.program, options);
-  if (!travelled) return travelled.error();
-  kinematics::Travel travel = *std::move(travelled);
-  Trial trial;
-  trial.operations = commanded.operations;
-  trial.warnings = commanded.warnings;
-  trial.program_files = commanded.program_files;
-  trial.warnings.insert(trial.warnings.end(), oversize.begin(), oversize.end());
+Result<Trial> CutAndMeasure::run(Trial trial, kinematics::Travel travel) const {
   if (travel.path.segments.empty()) {
     Diagnostic idle = warning("no-motion"_id, "the program moves no tool: the blank stays as it is",
                               "check that it is the right file");
@@ -242,9 +156,11 @@ Result<Trial> run_trial(const Machine& machine, const GeometricErrors& errors,
     for (Diagnostic& d : against_hand(*trial.workpiece, piece)) {
       trial.warnings.push_back(std::move(d));
     }
-    auto met = machine_collisions_of(machine, piece, commanded.program, *trial.workpiece);
-    if (!met) return met.error();
-    trial.machine_collisions = *std::move(met);
+    if (program != nullptr) {
+      auto met = machine_collisions_of(machine, piece, *program, *trial.workpiece);
+      if (!met) return met.error();
+      trial.machine_collisions = *std::move(met);
+    }
     add_machine_collisions(trial);
   }
   if (options.measure) {
@@ -259,6 +175,84 @@ Result<Trial> run_trial(const Machine& machine, const GeometricErrors& errors,
     }
   }
   return trial;
+}
+
+Result<Trial> run_as_read(const Machine& machine, const GeometricErrors& errors,
+                          const TestPiece& piece, const metrology::CmmModel& cmm,
+                          const TrialOptions& options) {
+  auto read = travel_as_read(machine, errors, piece, options);
+  if (!read) return read.error();
+  Trial trial;
+  trial.warnings = std::move(read->warnings);
+  trial.program_files = std::move(read->program_files);
+  trial.machine_collisions = std::move(read->machine_collisions);
+  return CutAndMeasure{machine, piece, nullptr, cmm, options}.run(std::move(trial),
+                                                                  std::move(read->travel));
+}
+
+}  // namespace
+
+Result<kinematics::Travel> still_travel(const Machine& machine, const GeometricErrors& errors,
+                                        const kinematics::Setup& setup,
+                                        const kinematics::CommandedProgram& program,
+                                        const TrialOptions& options) {
+  if (auto unstable = unstable_control(options, program)) return *std::move(unstable);
+  return kinematics::travel(machine, setup, program, errors,
+                            {.path_bound = options.path_bound,
+                             .time_law = options.time_law,
+                             .servo_lag = options.servo_lag,
+                             .time_step = options.has_dynamics() ? options.dynamics.time_step : 0.0,
+                             .poses_alone = options.poses_alone && !options.has_dynamics()});
+}
+
+Result<kinematics::Travel> tool_travel(const Machine& machine, const GeometricErrors& errors,
+                                       const kinematics::Setup& setup,
+                                       const kinematics::CommandedProgram& program,
+                                       const TrialOptions& options) {
+  auto travel = still_travel(machine, errors, setup, program, options);
+  if (!travel || !options.has_dynamics()) return travel;
+  travel->path =
+      with_dynamics(*options.dynamic_model, setup, std::move(travel->path), options.dynamics);
+  return travel;
+}
+
+Result<CommandedPiece> command_piece(const Machine& machine, const TestPiece& piece,
+                                     const std::function<void(Stage)>& on_stage) {
+  begin(on_stage, Stage::parse);
+  const auto program = parser::parse_program(piece.program, piece.program_file, piece.dialect);
+  if (!program) return program.error();
+  std::vector<std::string> opened;
+  auto motions = parser::motions_of(*program, reading_of(machine, piece, opened));
+  if (!motions) return motions.error();
+  auto files = hashed(opened);
+  if (!files) return files.error();
+  begin(on_stage, Stage::execute);
+  auto commanded = kinematics::command(machine, setup_of(piece), *motions);
+  if (!commanded) return in_file(commanded.error(), piece.program_file);
+  CommandedPiece result{.motions = *std::move(motions), .program = *std::move(commanded)};
+  result.program_files = *std::move(files);
+  result.operations = traces_of(machine, piece, kinematics::block_ends(result.program));
+  result.warnings = parser::doubts_of(result.motions);
+  auto& warned = result.program.warnings;
+  result.warnings.insert(result.warnings.end(), warned.begin(), warned.end());
+  result.warnings = in_file(std::move(result.warnings), piece.program_file);
+  return result;
+}
+
+Result<Trial> run_trial(const Machine& machine, const GeometricErrors& errors,
+                        const TestPiece& piece, const CommandedPiece& commanded,
+                        const metrology::CmmModel& cmm, const TrialOptions& options) {
+  const Diagnostics oversize = oversize_in(machine, errors, commanded.program);
+  if (has_error(oversize)) return oversize;
+  auto travel = tool_travel(machine, errors, setup_of(piece), commanded.program, options);
+  if (!travel) return travel.error();
+  Trial trial;
+  trial.operations = commanded.operations;
+  trial.warnings = commanded.warnings;
+  trial.program_files = commanded.program_files;
+  trial.warnings.insert(trial.warnings.end(), oversize.begin(), oversize.end());
+  return CutAndMeasure{machine, piece, &commanded.program, cmm, options}.run(std::move(trial),
+                                                                             *std::move(travel));
 }
 
 std::string_view name_of(Stage stage) {
@@ -291,6 +285,12 @@ kinematics::Setup setup_of(const TestPiece& piece) {
 Result<Trial> run_trial(const Machine& machine, std::span<const kinematics::ErrorEntry> errors,
                         const TestPiece& piece, const metrology::CmmModel& cmm,
                         const TrialOptions& options) {
+  if (options.poses_alone && piece.error_span.empty()) {
+    const auto resolved = kinematics::resolve(machine, errors, AxisSpans{});
+    if (resolved && may_travel_as_read(machine, *resolved, piece, options)) {
+      return run_as_read(machine, *resolved, piece, cmm, options);
+    }
+  }
   const auto commanded = command_piece(machine, piece, options.on_stage);
   if (!commanded) return commanded.error();
   const auto resolved = errors_for(machine, errors, piece, *commanded);
@@ -301,6 +301,9 @@ Result<Trial> run_trial(const Machine& machine, std::span<const kinematics::Erro
 Result<Trial> run_trial(const Machine& machine, const GeometricErrors& errors,
                         const TestPiece& piece, const metrology::CmmModel& cmm,
                         const TrialOptions& options) {
+  if (may_travel_as_read(machine, errors, piece, options)) {
+    return run_as_read(machine, errors, piece, cmm, options);
+  }
   const auto commanded = command_piece(machine, piece, options.on_stage);
   if (!commanded) return commanded.error();
   return run_trial(machine, errors, piece, *commanded, cmm, options);

@@ -81,6 +81,10 @@ struct TrialOptions {
     return dynamic_model != nullptr && dynamics.method != dynamics::PathMethod::off;
   }
   bool measure = true;  // false: stop with the finished workpiece
+  // The path has poses and times alone, and the trial nothing that is known of the program as a
+  // whole: then a program of any length is read, commanded and travelled at once, where nothing
+  // else asks for it (travel_as_read.hpp). Only without `measure`.
+  bool poses_alone = false;
   // Called when a stage begins; for progress bars and clocks, which are above this room.
   std::function<void(Stage)> on_stage{};
 };

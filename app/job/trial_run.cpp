@@ -33,6 +33,7 @@ TrialRun::TrialRun(report::ProgressStyle style) : progress_(std::cerr, style) {}
 Result<trials::Trial> TrialRun::trial(const Job& job, bool measure) {
   trials::TrialOptions options = trial_options_of(job);
   options.measure = measure;
+  options.poses_alone = !measure;
   options.on_stage = [this](trials::Stage stage) { begin(std::string(name_of(stage))); };
   auto result = run_trial(job.machine, job.errors, job.piece, job.cmm, options);
   end();

@@ -323,8 +323,9 @@ void PathRecorder::append(const std::vector<TimedPose>& poses, bool continues) {
   if (continues && first > 0) --first;
   for (const TimedPose& p : poses) {
     path_.poses.push_back(p.pose);
-    path_.axes.push_back(p.axes);
     path_.times.push_back(p.time);
+    if (options_.poses_alone) continue;
+    path_.axes.push_back(p.axes);
     path_.velocities.push_back(p.velocity);
     path_.shares.push_back(p.share);
   }

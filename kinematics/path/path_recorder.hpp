@@ -38,6 +38,9 @@ struct TravelOptions {
   // whose steps are its own, no step is longer.
   double time_step = 0.0;
   PathSink sink{};  // takes the path in parts as it grows; without one the whole path is kept
+  // Poses and their times are all that is kept of the path: no axes, velocities and shares. Not
+  // with a sink or a time step, which go on from these.
+  bool poses_alone = false;
 };
 
 class PathRecorder {

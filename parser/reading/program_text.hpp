@@ -26,6 +26,8 @@ class ProgramText {
   ProgramText() = default;
   explicit ProgramText(std::string text)
       : text_(std::make_shared<const std::string>(std::move(text))) {}
+  // Shared with others, or of somebody who keeps it for as long as it is read.
+  explicit ProgramText(std::shared_ptr<const std::string> text) : text_(std::move(text)) {}
   // A file, a pipe, or "-" for the standard input.
   [[nodiscard]] static Result<ProgramText> open(const std::filesystem::path& file);
 

@@ -51,33 +51,22 @@ Watches watches_of(const MachineScene& scene) {
 // The motion as vertices, handed on in portions.
 class Vertices {
  public:
-  Vertices(const CommandedProgram& program, std::vector<PairWatch>& pairs)
-      : program_(program), pairs_(pairs) {
-    vertices_.push_back({program.start, 0, 0});
+  Vertices(const AxisPositions& start, std::vector<PairWatch>& pairs) : pairs_(pairs) {
+    vertices_.push_back({start, 0, 0});
   }
 
-  void go() {
-    std::uint32_t number = 0;
-    for (const kinematics::CommandedStep& step : program_.steps) {
-      const auto* move = std::get_if<CommandedMove>(&step);
-      if (move != nullptr) add(*move, number++);
-      if (vertices_.size() >= kVerticesAtOnce) hand_on();
-    }
-    hand_on();
-  }
-
- private:
   void add(const CommandedMove& move, std::uint32_t number) {
     constexpr kinematics::PolylineTolerance kEven{.linear = 0.005, .rotary = 1e-5};
     if (move.motion.straight()) {
       vertices_.push_back({move.motion.end(), number, move.tool});
-      return;
+    } else {
+      for (const EvenPart& part :
+           kinematics::even_parts([&move](double u) { return move.motion.at(u); },
+                                  move.motion.least_parts(), move.motion.breaks(), kEven)) {
+        vertices_.push_back({part.to, number, move.tool});
+      }
     }
-    for (const EvenPart& part :
-         kinematics::even_parts([&move](double u) { return move.motion.at(u); },
-                                move.motion.least_parts(), move.motion.breaks(), kEven)) {
-      vertices_.push_back({part.to, number, move.tool});
-    }
+    if (vertices_.size() >= kVerticesAtOnce) hand_on();
   }
 
   void hand_on() {
@@ -87,40 +76,51 @@ class Vertices {
     vertices_ = {vertices_.back()};
   }
 
-  const CommandedProgram& program_;
+ private:
   std::vector<PairWatch>& pairs_;
   std::vector<AxisVertex> vertices_{};
 };
 
 // Of each motion: what is told of it, and its number in the path, in which those without a tool
 // have none.
-struct MoveOfPath {
-  const CommandedMove* move = nullptr;
-  std::uint32_t block = 0;
-};
-std::vector<MoveOfPath> moves_of(const CommandedProgram& program) {
-  std::vector<MoveOfPath> moves;
-  std::uint32_t block = 0;
-  for (const kinematics::CommandedStep& step : program.steps) {
-    const auto* move = std::get_if<CommandedMove>(&step);
-    if (move == nullptr) continue;
-    moves.push_back({move, block});
-    if (move->tool != 0) ++block;
+class MovesOfPath {
+ public:
+  struct Move {
+    std::uint32_t source_line = 0;
+    std::uint32_t block = 0;
+    int tool = 0;
+    std::uint32_t file = 0;
+  };
+
+  void add(const CommandedMove& move) {
+    if (move.source_file != files_.back()) files_.push_back(move.source_file);
+    moves_.push_back(
+        {move.source_line, block_, move.tool, static_cast<std::uint32_t>(files_.size() - 1)});
+    if (move.tool != 0) ++block_;
   }
-  return moves;
-}
+  [[nodiscard]] const Move& operator[](std::size_t number) const { return moves_[number]; }
+  [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(moves_.size()); }
+  [[nodiscard]] const std::shared_ptr<const std::string>& file_of(const Move& move) const {
+    return files_[move.file];
+  }
+
+ private:
+  std::vector<Move> moves_{};
+  std::vector<std::shared_ptr<const std::string>> files_{nullptr};
+  std::uint32_t block_ = 0;
+};
 
 Collision described(const kinematics::ForwardChain& chain, const Pose& workpiece_from_table,
-                    const std::vector<MoveOfPath>& moves, const PairWatch& watch,
+                    const MovesOfPath& moves, const PairWatch& watch,
                     const PairWatch::Meeting& meeting) {
-  const MoveOfPath& at = moves[meeting.first_move];
+  const MovesOfPath::Move& at = moves[meeting.first_move];
   const Pose table_from_bed = chain.bed_from_table(meeting.q).inverse();
   return {.kind = CollisionKind::bodies_meet,
           .block = at.block,
-          .source_line = at.move->source_line,
-          .source_file = at.move->source_file,
-          .last_line = moves[meeting.last_move].move->source_line,
-          .tool = at.move->tool,
+          .source_line = at.source_line,
+          .source_file = moves.file_of(at),
+          .last_line = moves[meeting.last_move].source_line,
+          .tool = at.tool,
           .point = workpiece_from_table.point(table_from_bed.point(meeting.point)),
           .first = watch.first().name,
           .second = watch.second().name};
@@ -142,29 +142,66 @@ std::vector<TouchingPair> touching_at_home(const MachineScene& scene) {
   return watches_of(scene).touching;
 }
 
+class MachineCollisionSearch::State {
+ public:
+  State(const MachineScene& scene, const AxisPositions& start)
+      : scene_(scene),
+        watches_(scene.stated == 0 ? Watches{} : watches_of(scene)),
+        vertices_(start, watches_.pairs) {}
+
+  void follow(const CommandedMove& move) {
+    if (scene_.stated == 0) return;
+    vertices_.add(move, moves_.count());
+    moves_.add(move);
+  }
+
+  [[nodiscard]] MachineCollisions finish(const kinematics::Setup& setup) {
+    MachineCollisions found{.bodies = scene_.stated};
+    if (scene_.stated == 0) return found;
+    for (const TouchingPair& pair : watches_.touching) found.warnings.push_back(touching(pair));
+    vertices_.hand_on();
+    const kinematics::GeometricErrors none;
+    const kinematics::ForwardChain chain(*scene_.machine, none, 0.0);
+    const Pose workpiece_from_table = setup.table_from_workpiece.inverse();
+    for (const PairWatch& watch : watches_.pairs) {
+      for (const PairWatch::Meeting& meeting : watch.meetings()) {
+        found.collisions.push_back(described(chain, workpiece_from_table, moves_, watch, meeting));
+      }
+      const auto& nearest = watch.nearest();
+      if (!nearest || (found.closest && found.closest->distance <= nearest->distance)) continue;
+      const MovesOfPath::Move& move = moves_[nearest->move];
+      found.closest = ClosestApproach{nearest->distance, watch.first().name, watch.second().name,
+                                      move.source_line, moves_.file_of(move)};
+    }
+    std::ranges::stable_sort(found.collisions, {}, &Collision::block);
+    return found;
+  }
+
+ private:
+  const MachineScene& scene_;
+  Watches watches_;
+  Vertices vertices_;
+  MovesOfPath moves_{};
+};
+
+MachineCollisionSearch::MachineCollisionSearch(const MachineScene& scene,
+                                               const AxisPositions& start)
+    : state_(std::make_unique<State>(scene, start)) {}
+MachineCollisionSearch::MachineCollisionSearch(MachineCollisionSearch&&) noexcept = default;
+MachineCollisionSearch::~MachineCollisionSearch() = default;
+
+void MachineCollisionSearch::follow(const CommandedMove& move) { state_->follow(move); }
+MachineCollisions MachineCollisionSearch::finish(const kinematics::Setup& setup) {
+  return state_->finish(setup);
+}
+
 MachineCollisions find_machine_collisions(const MachineScene& scene, const kinematics::Setup& setup,
                                           const CommandedProgram& program) {
-  MachineCollisions found{.bodies = scene.stated};
-  if (scene.stated == 0) return found;
-  Watches watches = watches_of(scene);
-  for (const TouchingPair& pair : watches.touching) found.warnings.push_back(touching(pair));
-  Vertices(program, watches.pairs).go();
-  const std::vector<MoveOfPath> moves = moves_of(program);
-  const kinematics::GeometricErrors none;
-  const kinematics::ForwardChain chain(*scene.machine, none, 0.0);
-  const Pose workpiece_from_table = setup.table_from_workpiece.inverse();
-  for (const PairWatch& watch : watches.pairs) {
-    for (const PairWatch::Meeting& meeting : watch.meetings()) {
-      found.collisions.push_back(described(chain, workpiece_from_table, moves, watch, meeting));
-    }
-    const auto& nearest = watch.nearest();
-    if (!nearest || (found.closest && found.closest->distance <= nearest->distance)) continue;
-    const CommandedMove& move = *moves[nearest->move].move;
-    found.closest = ClosestApproach{nearest->distance, watch.first().name, watch.second().name,
-                                    move.source_line, move.source_file};
+  MachineCollisionSearch search(scene, program.start);
+  for (const kinematics::CommandedStep& step : program.steps) {
+    if (const auto* move = std::get_if<CommandedMove>(&step)) search.follow(*move);
   }
-  std::ranges::stable_sort(found.collisions, {}, &Collision::block);
-  return found;
+  return search.finish(setup);
 }
 
 }  // namespace frustum::stock

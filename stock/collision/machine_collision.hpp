@@ -46,6 +46,22 @@ struct MachineCollisions {
     const MachineScene& scene, const kinematics::Setup& setup,
     const kinematics::CommandedProgram& program);
 
+// The same motion by motion, for programs that are never held as a whole.
+class MachineCollisionSearch {
+ public:
+  // The scene must outlive it.
+  MachineCollisionSearch(const MachineScene& scene, const kinematics::AxisPositions& start);
+  MachineCollisionSearch(MachineCollisionSearch&&) noexcept;
+  ~MachineCollisionSearch();
+
+  void follow(const kinematics::CommandedMove& move);
+  [[nodiscard]] MachineCollisions finish(const kinematics::Setup& setup);
+
+ private:
+  class State;
+  std::unique_ptr<State> state_;
+};
+
 // "table and column": bodies of the machine that touch where the axes are at home, which no search
 // looks at.
 struct TouchingPair {
