@@ -198,23 +198,17 @@ Result<std::optional<StudyMotion>> refused(const TomlTable& table, const TestFil
   return in_test_file(test, std::move(of_file));
 }
 
-// What is known beforehand of the offset of the ball in the spindle.
-std::optional<double> read_ball_uncertainty(const TomlTable& table, const std::string& ball) {
-  const std::string text = table.text_or("ball_uncertainty", "");
+// A standard deviation, where the key is there and is one.
+std::optional<double> read_deviation(const TomlTable& table, const char* key, const char* hint) {
+  const std::string text = table.text_or(key, "");
   if (text.empty()) return std::nullopt;
   const auto quantity = parse_quantity(text);
-  if (!quantity || quantity->kind != UnitKind::length || !(quantity->value > 0.0)) {
-    table.fail("ball_uncertainty", "wrong-unit"_id,
-               fmt::format("'{}' is no length above 0 with its unit", text),
-               "one standard deviation of X, Y and Z of the ball, for example \"30um\"");
-    return std::nullopt;
+  if (quantity && quantity->kind == UnitKind::length && quantity->value > 0.0) {
+    return quantity->value;
   }
-  if (ball == "exact") {
-    table.fail("ball_uncertainty", "contradiction"_id, "an exact ball has no uncertainty",
-               "leave out one of ball and ball_uncertainty");
-    return std::nullopt;
-  }
-  return quantity->value;
+  table.fail(key, "wrong-unit"_id, fmt::format("'{}' is no length above 0 with its unit", text),
+             hint);
+  return std::nullopt;
 }
 
 Result<std::optional<StudyMotion>> read_motion(const TomlTable& table, bool planned) {
@@ -232,16 +226,10 @@ Result<std::optional<StudyMotion>> read_motion(const TomlTable& table, bool plan
       (void)table.has(key);  // known, though not read
     return std::optional<StudyMotion>{};
   }
-  if (const std::string noise = table.text_or("noise", ""); !noise.empty()) {
-    const auto quantity = parse_quantity(noise);
-    if (!quantity || quantity->kind != UnitKind::length || !(quantity->value > 0.0)) {
-      table.fail(
-          "noise", "wrong-unit"_id, fmt::format("'{}' is no length above 0 with its unit", noise),
-          "a standard deviation, for example noise = \"0.3um\"; without it residuals say it");
-    } else {
-      entry.noise = quantity->value;
-    }
-  }
+  entry.noise = read_deviation(table, "noise",
+                               "a standard deviation, for example noise = \"0.3um\"; without it "
+                               "residuals say it")
+                    .value_or(0.0);
   const std::string angle = table.text_or("angle", "commanded");
   if (angle != "commanded" && angle != "feed") {
     table.fail("angle", "unknown-choice"_id, fmt::format("'{}' is not known", angle),
@@ -257,7 +245,13 @@ Result<std::optional<StudyMotion>> read_motion(const TomlTable& table, bool plan
     }
   }
   entry.ball = table.text_or("ball", "");
-  entry.ball_known_to = read_ball_uncertainty(table, entry.ball);
+  entry.ball_known_to =
+      read_deviation(table, "ball_uncertainty",
+                     "one standard deviation of X, Y and Z of the ball, for example \"30um\"");
+  if (entry.ball_known_to && entry.ball == "exact") {
+    table.fail("ball_uncertainty", "contradiction"_id, "an exact ball has no uncertainty",
+               "leave out one of ball and ball_uncertainty");
+  }
   auto test = read_test_file(file);
   if (!test) return test.error();
   // Those of the virtual machine; what is looked for here is what was measured.

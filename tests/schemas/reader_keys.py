@@ -14,7 +14,7 @@ QUESTIONS = ("text|text_or|choice|choice_or|number|number_or|integer|integer_or|
 ASKED = re.compile(rf"(?:\.|->)(?:{QUESTIONS})\(\s*\"([A-Za-z_0-9]+)\"")
 PASSED_ON = re.compile(
     r"\b(?:unit_direction|error_length|count|count_or|read_criterion|read_points|list_or|list_at|path_of|one_of|"
-    r"spring_number|numbers_of<\d>|pair_of|number_within|point_of|read_closed_mesh|read_text|is_empty|amount|quantity)"
+    r"spring_number|numbers_of<\d>|pair_of|number_within|read_deviation|point_of|read_closed_mesh|read_text|is_empty|amount|quantity)"
     r"\(\s*(?:\*?(?:table_?|root|entry|blank|setup|controller|sound|inspection))\s*,\s*(?:[A-Za-z.]+, )?\"([A-Za-z_0-9]+)\"")
 LAMBDAS = re.compile(r"\b(?:limit|length|temperature|expansion|share|amount|position|read|read_spacing|parsed)\("
                      r"\s*(?:table, )?\"([A-Za-z_0-9]+)\"")
