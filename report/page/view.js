@@ -54,7 +54,7 @@ function listen(element, camera, controls, render) {
 
 // Scene and camera in `element`; nothing where the browser draws no 3D graphics: what is there without a script
 // remains. show(box, margin) begins: the box is in view from all sides; fit(box, margin) shows another one from the
-// side that was chosen last.
+// side that was chosen last; drawAtShare(share) draws with that share of the pixels in each direction.
 export function viewIn(element, {antialias = true} = {}) {
   let renderer;
   try {
@@ -70,16 +70,22 @@ export function viewIn(element, {antialias = true} = {}) {
   const controls = new OrbitControls(camera, canvas);
   canvas.style.touchAction = 'pan-y';  // a finger that moves up and down scrolls the page
   const render = () => renderer.render(scene, camera);
+  let share = 1;
   listen(element, camera, controls, render);
   const resize = () => {
     const width = element.clientWidth;
     const height = element.clientHeight;
     if (width === 0 || height === 0) return;
-    renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    renderer.setPixelRatio(share * Math.min(window.devicePixelRatio, 2));
     renderer.setSize(width, height);
     camera.aspect = width / height;
     camera.updateProjectionMatrix();
     render();
+  };
+  const drawAtShare = (next) => {
+    if (next === share) return;
+    share = next;
+    resize();
   };
   const shown = {box: new three.Box3(), margin: 1, side: 'iso'};
   const look = (side) => {
@@ -110,5 +116,5 @@ export function viewIn(element, {antialias = true} = {}) {
     resize();
     fit(box, margin);
   };
-  return {scene, camera, canvas, controls, render, show, fit};
+  return {scene, camera, canvas, controls, render, show, fit, drawAtShare};
 }

@@ -9,6 +9,7 @@
 //   placeOfPoint(point)                     {x, y} in the window, px
 //   pickAt(x, y)                            {point, share} of the motion that is drawn there; or null
 //   axesError()                             mm: the largest distance of a tip from where the axes put it
+//   pixelShare                              of the pixels, in each direction, that a moving picture is drawn with
 //   frameTimes(), clearFrameTimes()         of the frames that were played (frame_times.js)
 import * as three from 'three';
 import {onTheme, theme} from '../page/theme.js';
@@ -19,6 +20,7 @@ import {FrameTimes} from './frame_times.js';
 import {Machine, materials, meshGeometry} from './machine.js';
 import {blockBeside, lineOfPoint, modelOf, pointAt, pointOfLine} from './model.js';
 import {Path} from './path.js';
+import {Resolution} from './resolution.js';
 
 const REACH = 10;       // px within which a click finds the path
 const PANEL_MS = 100;   // between two changes of numbers and listing while it plays
@@ -39,6 +41,7 @@ class Player {
     this.speed = 1;
     this.holds = 'machine';
     this.frames = new FrameTimes();
+    this.resolution = new Resolution();
     this.linear = new Float64Array(machine.linearCount);
     this.rotary = new Float64Array(machine.rotaryCount);
     this.tip = new Float64Array(3);
@@ -145,15 +148,20 @@ class Player {
     if (this.time >= this.model.duration) this.at(this.model.begin);
     this.playing = true;
     this.lastFrame = 0;
-    this.path.brief(true);
+    this.move(true);
     this.controls.show();
     requestAnimationFrame(this.frame);
   }
   pause() {
     if (!this.playing) return;
     this.playing = false;
-    this.path.brief(false);
+    this.move(false);
     this.redraw();
+  }
+  // A picture that moves is drawn with less, so that it moves smoothly.
+  move(isMoving) {
+    this.path.brief(isMoving);
+    this.view.drawAtShare(isMoving ? this.resolution.share : 1);
   }
 
   frame(now) {
@@ -164,7 +172,7 @@ class Player {
     this.at(this.time + interval / 1000 * this.speed);
     if (this.time >= this.model.duration) {
       this.playing = false;
-      this.path.brief(false);
+      this.move(false);
     }
     if (now - this.lastPanel >= PANEL_MS || !this.playing) {
       this.lastPanel = now;
@@ -172,7 +180,10 @@ class Player {
     }
     const updated = performance.now();
     this.view.render();
-    if (interval > 0) this.frames.add(updated - begin, performance.now() - updated, interval);
+    if (interval > 0) {
+      this.frames.add(updated - begin, performance.now() - updated, interval);
+      if (this.playing && this.resolution.add(interval)) this.view.drawAtShare(this.resolution.share);
+    }
     if (this.playing) requestAnimationFrame(this.frame);
   }
 
@@ -267,13 +278,13 @@ function listenToClicks(player) {
   });
 }
 
-// Long paths are drawn by fewer segments while the view turns.
+// While the view turns it is drawn with less, too.
 function listenToTurns(player) {
   const {controls, render} = player.view;
-  controls.addEventListener('start', () => player.path.brief(true));
+  controls.addEventListener('start', () => player.move(true));
   controls.addEventListener('end', () => {
     if (player.playing) return;
-    player.path.brief(false);
+    player.move(false);
     render();
   });
 }
@@ -327,6 +338,7 @@ function publish(player) {
     placeOfPoint: (point) => player.placeOfPoint(point),
     pickAt: (x, y) => player.pickAt(x, y),
     axesError: () => player.axesError(),
+    get pixelShare() { return player.resolution.share; },
     frameTimes: () => player.frames.summary,
     clearFrameTimes: () => player.frames.clear(),
   };
