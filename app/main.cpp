@@ -2,9 +2,11 @@
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
 #include "app/command/listing/listing_commands.hpp"
+#include "core/files_read.hpp"
 
 int main(int argc, char** argv) {
   using namespace frustum::app;  // NOLINT: main is the whole program
+  frustum::keep_what_is_read();
   return run_command_line(
       {.name = "frustum",
        .description =

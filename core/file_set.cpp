@@ -13,6 +13,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/files_read.hpp"
 #include "core/whole_file.hpp"
 
 namespace frustum {
@@ -255,6 +256,9 @@ Result<FileSet> FileSet::open(const fs::path& folder, std::vector<std::string> n
       return in_use;
     }
     if (!at.lock.is_at(at.folder)) continue;
+    for (const std::string& name : at.names) {
+      if (auto lost = would_be_lost(at.folder / name)) return *std::move(lost);
+    }
     // What a run that was killed has left.
     fs::remove_all(at.beside("next"), failure);
     fs::remove_all(at.within(), failure);
@@ -279,6 +283,7 @@ std::optional<std::string> FileSet::name_of(const fs::path& path) const {
 
 Result<fs::path> FileSet::write() {
   for (const auto& [name, bytes] : files_) {
+    if (auto lost = would_be_lost(place_->folder / name)) return *std::move(lost);
     if (!place_->is_own(name) && name.find('/') == std::string::npos) place_->names.push_back(name);
   }
   const auto exchanged = place_->write_exchanged(files_);

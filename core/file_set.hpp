@@ -32,6 +32,7 @@ class FileSet {
 
   // A file in the folder or below it, by its name from there; returns its path.
   std::filesystem::path add(const std::string& name, std::string bytes);
+  [[nodiscard]] bool has(const std::string& name) const { return files_.contains(name); }
   // The name of a path that is in the folder or below it.
   [[nodiscard]] std::optional<std::string> name_of(const std::filesystem::path& path) const;
   // Once, after all files were added.

@@ -14,6 +14,8 @@
 #include <system_error>
 #include <utility>
 
+#include "core/files_read.hpp"
+
 namespace frustum {
 namespace {
 
@@ -77,7 +79,7 @@ Diagnostic endless(const fs::path& path) {
 
 }  // namespace
 
-Result<std::string> read_whole_file(const fs::path& path) {
+Result<std::string> read_to_replace(const fs::path& path) {
   constexpr std::size_t kLongestStream = std::size_t{1} << 28U;
   std::error_code unknown;
   const std::size_t longest =
@@ -101,6 +103,12 @@ Result<std::string> read_whole_file(const fs::path& path) {
   return diagnostic;
 }
 
+Result<std::string> read_whole_file(const fs::path& path) {
+  auto bytes = read_to_replace(path);
+  if (bytes) note_read(path);
+  return bytes;
+}
+
 Diagnostic cannot_write(const fs::path& path, std::string_view reason) {
   Diagnostic diagnostic =
       error("file-unwritable"_id, fmt::format("cannot write '{}': {}", path.string(), reason),
@@ -113,6 +121,7 @@ std::optional<Diagnostic> unwritable(const fs::path& path) {
   std::error_code failure;
   if (fs::is_directory(path, failure)) return cannot_write(path, "it is a folder");
   if (is_device(path)) return std::nullopt;
+  if (auto lost = would_be_lost(path)) return lost;
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!fs::exists(folder, failure)) return cannot_write(path, "there is no such folder");
   if (::access(folder.c_str(), W_OK | X_OK) == 0) return std::nullopt;
@@ -134,6 +143,7 @@ Result<fs::path> write_beside(const fs::path& path, std::string_view bytes, bool
   std::error_code failure;
   if (fs::is_directory(path, failure)) return cannot_write(path, "it is a folder");
   if (is_device(path)) return write_through(path, bytes);
+  if (auto lost = would_be_lost(path)) return *std::move(lost);
   auto part = open_part(path);
   if (!part) return cannot_write(path, std::strerror(errno));
   const bool written = write_bytes(std::move(part->file), bytes, synced);

@@ -27,11 +27,12 @@ Diagnostic missed(const PlannedFeature& feature, std::size_t index, const Planne
                   const BallContact& contact, const ProbeSettings& probe) {
   const std::string place = place_of(feature, index, planned);
   if (contact.state == ContactState::starts_inside) {
-    return error("approach-in-material"_id,
-                 fmt::format("{}: the approach starts inside the material, {} mm off the nominal "
-                             "surface",
-                             place, probe.clearance),
-                 "check the nominal geometry and the cut, or enlarge probe.clearance");
+    return error(
+        "approach-in-material"_id,
+        fmt::format("{}: the approach starts inside the material, {} mm off the nominal "
+                    "surface",
+                    place, probe.clearance),
+        "check the nominal geometry, the setup, the tool and the cut, or enlarge probe.clearance");
   }
   return error(
       "plan-misses-part"_id,
@@ -40,7 +41,7 @@ Diagnostic missed(const PlannedFeature& feature, std::size_t index, const Planne
                   contact.surface_past
                       ? fmt::format(", it is {:.3f} mm past it", *contact.surface_past)
                       : ""),
-      "check the nominal geometry and the blank or mesh, or enlarge probe.reach");
+      "check the nominal geometry, the setup and the blank or mesh, or enlarge probe.reach");
 }
 
 // One measurement of a part: its features, and what the stylus ran into.

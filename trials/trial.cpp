@@ -106,6 +106,25 @@ void add_machine_collisions(Trial& trial) {
   trial.warnings.insert(trial.warnings.end(), met.warnings.begin(), met.warnings.end());
 }
 
+// A part that cannot be measured: likely for what the program ran into.
+std::optional<Diagnostic> damage_by(const Trial& trial, const TestPiece& piece) {
+  const auto runs_into = [](const stock::Collision& collision) {
+    return collision.kind != stock::CollisionKind::feed_with_spindle_off;
+  };
+  const auto first = std::ranges::find_if(trial.collisions, runs_into);
+  if (first == trial.collisions.end()) return std::nullopt;
+  const auto count = std::ranges::count_if(trial.collisions, runs_into);
+  Diagnostic damage = warning(
+      "part-damaged"_id,
+      fmt::format("the program runs into the part, the machine or a fixture {} time{}, here "
+                  "first: what cannot be measured may be damaged",
+                  count, count == 1 ? "" : "s"),
+      "frustum check --job lists where, and how deep");
+  damage.file = first->source_file ? *first->source_file : piece.program_file;
+  damage.line = static_cast<int>(first->source_line);
+  return damage;
+}
+
 void begin(const std::function<void(Stage)>& on_stage, Stage stage) {
   if (on_stage) on_stage(stage);
 }
@@ -167,7 +186,12 @@ Result<Trial> CutAndMeasure::run(Trial trial, kinematics::Travel travel) const {
     begin(options.on_stage, Stage::measure);
     const WorkpieceProbe probe(*trial.workpiece);
     auto measurement = metrology::measure(piece.plan, probe, cmm);
-    if (!measurement) return measurement.error();
+    if (!measurement) {
+      Diagnostics problems = measurement.error();
+      if (auto damage = damage_by(trial, piece))
+        problems.insert(problems.begin(), *std::move(damage));
+      return problems;
+    }
     trial.measurement = *std::move(measurement);
     for (Diagnostic& d :
          wrongly_cut_features(piece, trial.workpiece->removed().path(), trial.measurement)) {

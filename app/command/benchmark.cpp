@@ -40,7 +40,7 @@ Result<std::string> commitments_json(const fs::path& file,
   };
   nlohmann::json all = nlohmann::json::object();
   if (std::error_code failure; fs::exists(file, failure)) {
-    const auto text = read_whole_file(file);
+    const auto text = read_to_replace(file);
     if (!text) return text.error();
     all = nlohmann::json::parse(*text, nullptr, false);
     if (!all.is_object()) {

@@ -87,6 +87,28 @@ ordered_json zero_by_choice(const Machine& machine) {
   return list;
 }
 
+std::string coordinates(const Vec3& v) {
+  return fmt::format("{:g}, {:g}, {:g}", v.x(), v.y(), v.z());
+}
+
+// What the file states of its axes' places and senses, to be held against a drawing.
+std::string geometry_text(const Machine& machine) {
+  std::string text =
+      "\nplaces, mm from the part before; senses of the tool relative to the workpiece\n";
+  const auto row = [&](std::string_view name, const Vec3& offset, const std::string& rest) {
+    text += fmt::format("  {:<8} at {:<{}}{}\n", name, coordinates(offset), rest.empty() ? 0 : 22,
+                        rest);
+  };
+  for (const Joint& joint : machine.joints()) {
+    row(std::string(1, to_char(joint.letter)), joint.offset,
+        fmt::format(" {} {:<12} home {:g} {}", joint.rotary() ? "about" : "along",
+                    coordinates(joint.direction), shown(joint, joint.home), unit(joint)));
+  }
+  row("spindle", machine.spindle_offset(), "");
+  row("table", machine.table_offset(), "");
+  return text;
+}
+
 int list_errors(const MachinesOptions& options) {
   const auto machine = load_machine(options.machine, ".");
   if (!machine) return refuse(machine.error(), options);
@@ -139,7 +161,7 @@ int list_errors(const MachinesOptions& options) {
                              axis["side"].get<std::string>(), travel,
                              axis["errors"].get<std::string>());
   }
-  std::cout << "\nerrors (--error NAME=VALUE)\n";
+  std::cout << geometry_text(*machine) << "\nerrors (--error NAME=VALUE)\n";
   for (const auto& e : names) {
     std::cout << fmt::format(
         "  {:<10} {:<5} {}{}\n", e["name"].get<std::string>(), e["unit"].get<std::string>(),

@@ -1,8 +1,11 @@
 #include "app/job/export_request.hpp"
 
+#include <fmt/format.h>
+
 #include <iostream>
 #include <system_error>
 
+#include "core/files_read.hpp"
 #include "core/whole_file.hpp"
 #include "report/exchange/export_file.hpp"
 
@@ -43,6 +46,9 @@ Result<std::vector<fs::path>> checked_exports(const std::vector<std::string>& wr
     const Diagnostics faults = report::export_faults(files.back());
     problems.insert(problems.end(), faults.begin(), faults.end());
   }
+  for (const fs::path& file : files) {
+    if (auto lost = would_be_lost(file)) problems.push_back(*std::move(lost));
+  }
   if (!problems.empty()) return problems;
   return files;
 }
@@ -53,6 +59,11 @@ Diagnostics write_exports(const std::vector<fs::path>& files, report::RunReport&
     const auto format = report::export_format(file);
     if (!format) return format.error();
     if (const auto name = set == nullptr ? std::nullopt : set->name_of(file)) {
+      if (set->has(*name)) {
+        return {error("output-twice"_id,
+                      fmt::format("--export {}: this run writes that file already", file.string()),
+                      "choose another name")};
+      }
       set->add(*name, report::exported(*format, report, plan));
       report.files.push_back(file.string());
       continue;

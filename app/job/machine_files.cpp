@@ -58,9 +58,8 @@ std::string documents_uri() {
 Result<fs::path> find_machine(const std::string& name, const fs::path& folder) {
   std::error_code ignored;
   const fs::path written = name;
-  for (const fs::path& candidate : {folder / written, written}) {
-    if (fs::is_regular_file(candidate, ignored)) return candidate;
-  }
+  const fs::path named = folder / written;
+  if (fs::is_regular_file(named, ignored)) return named;
   for (const fs::path& shipped : machine_folders()) {
     const fs::path candidate = shipped / (name + ".toml");
     if (fs::is_regular_file(candidate, ignored)) return candidate;
@@ -68,7 +67,9 @@ Result<fs::path> find_machine(const std::string& name, const fs::path& folder) {
   std::vector<std::string> names;
   for (const fs::path& each : shipped_machines()) names.push_back(each.stem().string());
   return error("unknown-machine"_id,
-               fmt::format("'{}' is neither a machine file nor a machine that is shipped", name),
+               fmt::format("'{}' is neither a machine file ('{}' is no file) nor a machine that is "
+                           "shipped",
+                           name, named.lexically_normal().string()),
                suggestion(written.stem().string(), names));
 }
 

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <utility>
 
+#include "core/files_read.hpp"
+
 namespace frustum::parser {
 namespace {
 
@@ -86,6 +88,7 @@ Result<ProgramText> ProgramText::open(const std::filesystem::path& file) {
   if (!std::ifstream(file, std::ios::binary)) {
     return unreadable(file, "check the path and permissions");
   }
+  note_read(file);
   ProgramText text;
   text.file_ = file;
   return text;

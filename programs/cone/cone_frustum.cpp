@@ -96,7 +96,9 @@ PosedProgramSettings settings_of(const ConeFrustum& cone) {
       fmt::format("T1 = END MILL D{:g}, LENGTH {:g} MM", cone.tool_diameter.value,
                   cone.tool_length.value)};
   settings.piece = "the cone test";
-  settings.remedy = "change --center, --radius or --orientation, or choose a larger machine";
+  settings.remedy =
+      "change --center, --radius, --orientation, --inclination or --tool-length, or choose a "
+      "larger machine";
   settings.origin = cone.center;
   settings.tool_length = cone.tool_length;
   settings.feed = cone.feed;

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "kinematics/model/inverse.hpp"
 #include "programs/milling/linearised_axes.hpp"
@@ -56,6 +60,7 @@ class PosedProgram {
         }
       }
     }
+    if (auto problem = beyond_travel()) return *std::move(problem);
     footer();
     const auto written = nc_.write(piece, dialect);
     if (!written) return written.error();
@@ -155,13 +160,7 @@ class PosedProgram {
     const auto solutions = kinematics::inverse(machine_, in_table(move), length, axes_);
     if (!solutions) return solutions.error();
     const AxisPositions next = solutions->front().axes;
-    if (!solutions->front().within_travel) {
-      return Diagnostics{
-          error("axis-over-travel"_id,
-                fmt::format("{} does not fit on machine {}: {}", settings_.piece, machine_.name(),
-                            fmt::join(kinematics::travel_violations(machine_, next), "; ")),
-                settings_.remedy)};
-    }
+    if (!solutions->front().within_travel) note_beyond(next);
     if (settings_.form == ProgramForm::vector) {
       add_block(move, tip_target(move.pose.tip), UnitVec3::of(move.pose.axis));
     } else if (settings_.form == ProgramForm::angles) {
@@ -176,6 +175,26 @@ class PosedProgram {
     }
     axes_ = next;
     return std::nullopt;
+  }
+
+  // How far each axis would have to go, where it is beyond its travel somewhere.
+  void note_beyond(const AxisPositions& q) {
+    if (!lowest_) lowest_ = highest_ = q;
+    for (const kinematics::Joint& joint : machine_.joints()) {
+      (*lowest_)[joint.letter] = std::min((*lowest_)[joint.letter], q[joint.letter]);
+      (*highest_)[joint.letter] = std::max((*highest_)[joint.letter], q[joint.letter]);
+    }
+  }
+  [[nodiscard]] std::optional<Diagnostic> beyond_travel() const {
+    if (!lowest_) return std::nullopt;
+    std::vector<std::string> all = kinematics::travel_violations(machine_, *lowest_);
+    for (std::string& each : kinematics::travel_violations(machine_, *highest_)) {
+      if (std::ranges::find(all, each) == all.end()) all.push_back(std::move(each));
+    }
+    return error("axis-over-travel"_id,
+                 fmt::format("{} does not fit on machine {}, at its farthest: {}", settings_.piece,
+                             machine_.name(), fmt::join(all, "; ")),
+                 settings_.remedy);
   }
 
   void add_rotary(parser::AxisTarget& target, const AxisPositions& q) const {
@@ -208,6 +227,7 @@ class PosedProgram {
   const Machine& machine_;
   AxisPositions axes_;
   PieceProgram nc_;
+  std::optional<AxisPositions> lowest_{}, highest_{};  // of places beyond travel, by axis
 };
 
 }  // namespace

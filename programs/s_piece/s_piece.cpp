@@ -152,7 +152,7 @@ PosedProgramSettings settings_of(const SPiece& piece) {
       fmt::format("T{} = END MILL D{:g}, LENGTH {:g} MM", kPieceTool, piece.cutter.value,
                   piece.tool_length.value)};
   settings.piece = "the S-shaped piece";
-  settings.remedy = "change --center or --orientation, or choose a larger machine";
+  settings.remedy = "change --center, --orientation or --tool-length, or choose a larger machine";
   settings.origin = piece.center;
   settings.tool_length = piece.tool_length;
   settings.feed = piece.feed;

@@ -228,7 +228,7 @@ Result<TestPiece> piece_as_it_faces(const SurfacePiece& piece, const kinematics:
                   ruled ? "END MILL" : "BALL END MILL", diameter_of(piece),
                   piece.tool_length.value)};
   settings.piece = "the surface";
-  settings.remedy = "change --center or --orientation, or choose a larger machine";
+  settings.remedy = "change --center, --orientation or --tool-length, or choose a larger machine";
   settings.origin = piece.center;
   settings.tool_length = piece.tool_length;
   settings.feed = piece.feed;

@@ -270,9 +270,10 @@ std::string sensitivity_csv(const SensitivityTable& table) {
   return out;
 }
 
-std::string sensitivity_text(const SensitivityTable& table, int width) {
-  const auto [shown, silent] = columns_of(table);
-  std::size_t name_width = 0, cell_width = 10;
+// Rows of characteristics, columns of errors, as many beside each other as the width holds.
+std::string text_blocks(const SensitivityTable& table, const Eigen::MatrixXd& matrix,
+                        std::span<const Eigen::Index> shown, int width) {
+  std::size_t name_width = 0, cell_width = 12;
   for (const NamedUnit& c : table.characteristics) {
     name_width = std::max(name_width, c.name.size() + c.unit.size() + 3);
   }
@@ -283,7 +284,7 @@ std::string sensitivity_text(const SensitivityTable& table, int width) {
   const auto room = static_cast<std::size_t>(std::max(width, 40));
   const std::size_t columns =
       std::max<std::size_t>(1, room > name_width ? (room - name_width) / cell_width : 1);
-  std::string out = fmt::format("{}\n{}, {}\n", table.title, table.machine, table.method);
+  std::string out;
   for (std::size_t first = 0; first < shown.size(); first += columns) {
     const std::size_t last = std::min(first + columns, shown.size());
     std::string names(name_width, ' '), units(name_width, ' ');
@@ -293,15 +294,32 @@ std::string sensitivity_text(const SensitivityTable& table, int width) {
       units += padded("/" + p.unit, cell_width, p.unit.size() + 1);
     }
     out += fmt::format("\n{}\n{}\n", names, units);
-    for (Eigen::Index i = 0; i < table.odd.rows(); ++i) {
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
       const NamedUnit& c = table.characteristics[static_cast<std::size_t>(i)];
       std::string line = fmt::format("{:<{}}", fmt::format("{} [{}]", c.name, c.unit), name_width);
       for (std::size_t j = first; j < last; ++j) {
-        const std::string cell = cell_text(table.odd(i, shown[j]));
+        const std::string cell = cell_text(matrix(i, shown[j]));
         line += padded(cell, cell_width, cell == "·" ? 1 : cell.size());
       }
       out += line + '\n';
     }
+  }
+  return out;
+}
+
+std::string sensitivity_text(const SensitivityTable& table, int width) {
+  const auto [shown, silent] = columns_of(table);
+  std::string out = fmt::format("{}\n{}, {}\n", table.title, table.machine, table.method);
+  out += text_blocks(table, table.odd, shown, width);
+  std::vector<Eigen::Index> of_either_sign;
+  for (const Eigen::Index k : shown) {
+    if (answers(table.even, k)) of_either_sign.push_back(k);
+  }
+  if (!of_either_sign.empty()) {
+    out +=
+        "\nBeside that, of either sign, for one unit: the form of a part that was perfect grows "
+        "with any error\n";
+    out += text_blocks(table, table.even, of_either_sign, width);
   }
   if (!silent.empty()) out += fmt::format("\nNo characteristic answers: {}\n", silent);
   return out;

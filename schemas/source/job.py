@@ -31,7 +31,7 @@ CONTROLLER = {
 }
 
 JOB = Schema(
-    "job", "1.0", "Job",
+    "job", "1.1", "Job",
     table("One part: machine, NC program, blank, tools, plan", {
         "title!": text("Of the report"),
         "machine!": text("Machine file, or the name of a shipped machine"),

@@ -108,11 +108,12 @@ DYNAMICS = table("Masses, springs and dampers", {
 })
 
 _AXIS = table("One axis", {
-    "direction": vector("Unit vector of positive motion of the part that moves; default: the letter's own"),
-    "offset": vector("Where the axis is, mm, from the part before it; of a rotary axis a point of its line"),
+    "direction": vector("Unit vector of positive motion of the tool relative to the workpiece (ISO 841), so that what carries "
+                        "the workpiece moves the other way; default: the letter's own"),
+    "offset": vector("Where the axis is, mm, from the part before it (0, 0, 0); of a rotary axis a point of its line"),
     "travel": numbers("[lowest, highest], mm; deg of a rotary axis", 2),
     "endless": flag("A rotary axis without ends", default=False),
-    "home": number("mm or deg", default=0),
+    "home": number("Reference position, mm or deg; of Z where programs lift the tool to, as a rule the upper end of its travel", default=0),
     "velocity": positive("Greatest speed, mm/s or deg/s"),
     "acceleration": positive("Greatest, mm/s^2 or deg/s^2"),
     "jerk": positive("Greatest, mm/s^3 or deg/s^3"),
@@ -122,7 +123,7 @@ _AXIS = table("One axis", {
 }, anyOf=[{"required": ["travel"]}, {"required": ["endless"]}])
 
 MACHINE = Schema(
-    "machine", "1.0", "Machine file",
+    "machine", "1.1", "Machine file",
     table("A machine: its chain of axes from the bed to tool and workpiece", {
         "name!": text("Short name, by which jobs and reports call it"),
         "title": text("What it is, in words"),
@@ -133,8 +134,8 @@ MACHINE = Schema(
         "rotary_error_frame": choice(["stator", "rotor"], "In whose directions errors of rotary axes are",
                                      default="stator"),
         "datum": texts("Primary and secondary reference axis, to which location errors refer", maxItems=2),
-        "spindle": table("The spindle", {"offset": vector("Gauge point from the last part of the tool side, mm")}),
-        "table": table("The table", {"offset": vector("Its origin from the last part of the workpiece side, mm")}),
+        "spindle": table("The spindle", {"offset": vector("Gauge point from the last part of the tool side, mm (0, 0, 0)")}),
+        "table": table("The table", {"offset": vector("Its origin from the last part of the workpiece side, mm (0, 0, 0)")}),
         "axis!": map_of(_AXIS, "Axes by letter, each of the structure", "^[XYZABC]$"),
         "alias": map_of(table("One symbol", {
             "error!": text("ISO 230-1 name"),

@@ -33,7 +33,7 @@ _COMMON = {
     "neck_length": length("Of the neck", "positive"),
     "neck_angle": angle("Of a neck that widens", "non_negative"),
     "shank_diameter": length("Above flutes and neck", "positive"),
-    "holder": rows(3, "Outline of the holder: [height above the tip, radius, radius of the arc or 0], mm"),
+    "holder": rows(3, "Cones of the holder from the tool upwards: [height of the cone, lower diameter, upper diameter], mm"),
 }
 
 _OF_TYPES = {
@@ -54,7 +54,7 @@ _OF_TYPES = {
     "alpha": angle("APT: slope of the end"),
     "beta": angle("APT: taper of the flank"),
     "H": length("APT: height", "positive"),
-    "outline": rows(3, "Of a profile cutter: [height, radius, radius of the arc or 0], mm"),
+    "outline": rows(3, "Of a profile cutter, from the axis on: [radius, height, radius of the arc that leads there or 0], mm"),
     "points": rows(2, "Of a measured cutter: [height, radius], mm"),
     "file": text("Of a measured cutter: CSV file with columns Z and R"),
 }
@@ -76,7 +76,7 @@ CHANGED_CUTTER = _cutter(False)
 NUMBERED = r"^0*[1-9][0-9]{0,4}$"
 
 TOOLS = Schema(
-    "tools", "1.0", "Tool library",
+    "tools", "1.1", "Tool library",
     table("Cutters by number, for `tools` of a job", {
         "title": text("Of the library"),
         "tool!": map_of(CUTTER, "By number", NUMBERED, minProperties=1),

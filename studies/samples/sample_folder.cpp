@@ -66,7 +66,7 @@ Diagnostic another_study(const fs::path& file, const SampleMark& own, const Samp
 }
 
 std::optional<SampleBlock> block_in(const fs::path& file, const SampleMark& mark) {
-  const auto bytes = read_whole_file(file);
+  const auto bytes = read_to_replace(file);
   if (!bytes) return std::nullopt;
   auto samples = decoded(*bytes, file.string());
   if (!samples || samples->mark != mark) return std::nullopt;
@@ -91,7 +91,7 @@ Result<SampleFolder> SampleFolder::open(const fs::path& folder, SampleMark mark,
     const bool is_part = number_in(name, kPart) || number_in(name, kPiece);
     if (is_left_over(name) || (is_part && !keep)) removed.push_back(entry.path());
     if (!is_part || !keep) continue;
-    const auto bytes = read_whole_file(entry.path());
+    const auto bytes = read_to_replace(entry.path());
     const auto range =
         bytes ? range_of(*bytes, entry.path().string()) : Result<SampleRange>(bytes.error());
     if (range && range->mark != opened_folder.mark_) {
@@ -199,7 +199,7 @@ Result<std::uint64_t> SampleFolder::merge(std::span<const fs::path> folders) con
   }
   std::uint64_t draws = 0;
   for (const auto& [part, file] : found) {
-    const auto bytes = read_whole_file(file);
+    const auto bytes = read_to_replace(file);
     if (!bytes) return bytes.error();
     const auto range = range_of(*bytes, file.string());
     if (!range) return range.error();

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/command_line.hpp"
@@ -46,6 +47,38 @@ TEST_F(CommandHabitsSystem, Fault2_32_AnExportInTheFolderIsOneOfTheSet) {
   EXPECT_EQ(read(folder_ / "out/notes.txt"), "of the user");
   EXPECT_NE(read(folder_ / "out/part.csv").find("cone.equivalent_form"), std::string::npos);
   EXPECT_EQ(read(folder_ / "out/points.csv").rfind("feature,", 0), 0U);
+}
+
+TEST_F(CommandHabitsSystem, WritesOverNothingThatItHasRead) {
+  write_piece();
+  ASSERT_NE(run("run piece/job.toml --out first --quiet").exit_code, 2);
+  const fs::path piece = folder_ / "piece";
+  fs::copy(folder_ / "first/points.csv", piece / "points.csv");
+  std::ofstream(piece / "exx.csv") << "X_mm,EXX_um\n-100,0\n100,5\n";
+  const std::map<std::string, std::string> read_by_command{
+      {"measure --plan cone.plan.toml --points points.csv --export points.csv", "points.csv"},
+      {"measure --plan cone.plan.toml --points points.csv --export ./cone.plan.csv --export "
+       "../piece/points.csv",
+       "points.csv"},
+      {"cut job.toml --removal points.csv --error EXX=points.csv", "points.csv"},
+      {"run job.toml --out o --error 'EXX=exx.csv' --export exx.csv", "exx.csv"},
+      {"view cone.nc --machine iwf-bc --tool-length 1=150 --offset G54=-65,0,150 --out .",
+       "cone.nc"},
+      {"history . --out .", "history.json"},
+  };
+  fs::copy(folder_ / "first/result.json", piece / "history.json");
+  std::ofstream(piece / "history.toml")
+      << "[[result]]\nfile = \"history.json\"\ndate = 2026-01-01\n";
+  for (const auto& [command, file] : read_by_command) {
+    const std::string before = read(piece / file);
+    const Outcome refused = shell("cd piece && frustum " + command);
+    EXPECT_EQ(read(piece / file), before) << command;
+    if (command.starts_with("view")) continue;  // view.html, which it has not read
+    EXPECT_EQ(refused.exit_code, 2) << command << refused.out << refused.err;
+  }
+  const Outcome twice = run("run piece/job.toml --out first --export first/points.csv --quiet");
+  EXPECT_EQ(twice.exit_code, 2);
+  EXPECT_NE(twice.err.find("this run writes that file already"), std::string::npos) << twice.err;
 }
 
 TEST_F(CommandHabitsSystem, Fault2_43_AFolderThatCannotBeIsRefusedBeforeTheWork) {

@@ -55,6 +55,32 @@ TEST_F(TestPieceSystem, TheSPieceSpeaksFourDialectsAndAxisPositions) {
   }
 }
 
+TEST_F(TestPieceSystem, SaysHowFarEachAxisIsBeyondItsTravel) {
+  fs::copy(FRUSTUM_SOURCE_DIR "/machines/zx-yac.toml", folder_ / "small.toml");
+  replace_in("small.toml", "[-300, 600]", "[200, 600]");
+  replace_in("small.toml", "[-350, 350]", "[-40, 40]");
+  const Outcome small = run("program cone --machine small.toml --out cone");
+  EXPECT_EQ(small.exit_code, 2);
+  EXPECT_NE(small.err.find("at its farthest: Y = -"), std::string::npos) << small.err;
+  EXPECT_NE(small.err.find("; Z = "), std::string::npos) << small.err;
+  EXPECT_NE(small.err.find("--tool-length"), std::string::npos) << small.err;
+}
+
+TEST_F(TestPieceSystem, WarnsOfAHomeThatIsNotAboveThePartAndOfWhatComesOfIt) {
+  fs::copy(FRUSTUM_SOURCE_DIR "/machines/zx-yac.toml", folder_ / "low.toml");
+  replace_in("low.toml", "home   = 500", "home   = -200");
+  const Outcome made = run("program cone --machine low.toml --out cone");
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.err.find("axis.Z.home: the program lifts the tool to the home position of Z, "
+                          "-200 mm"),
+            std::string::npos)
+      << made.err;
+  const Outcome ran = run("run cone/job.toml --out o");
+  EXPECT_EQ(ran.exit_code, 2) << ran.out;
+  EXPECT_NE(ran.err.find("cone.nc:"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.err.find("the program runs into the part"), std::string::npos) << ran.err;
+}
+
 TEST_F(TestPieceSystem, TheSPieceSaysWhatDoesNotFit) {
   const Outcome large = run("program s-piece --machine zx-yac --cutter 90 --out s");
   EXPECT_EQ(large.exit_code, 2);

@@ -187,7 +187,8 @@ TEST(VirtualCmm, ExplainsAPlanThatMissesThePart) {
   EXPECT_EQ(
       to_string(deep.error().front()),
       "error: feature 'cone', point 1 at [5.649, 0.000, 26.000]: the approach starts inside the "
-      "material, 2 mm off the nominal surface (hint: check the nominal geometry and the cut, or "
+      "material, 2 mm off the nominal surface (hint: check the nominal geometry, the setup, the "
+      "tool and the cut, or "
       "enlarge probe.clearance)");
   p.features[3].half_angle = 2.0;
   EXPECT_EQ(measure(p, part()).error().front().key, "feature[4].half_angle");

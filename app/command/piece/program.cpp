@@ -8,6 +8,7 @@
 #include "app/view/console.hpp"
 #include "core/program_version.hpp"
 #include "programs/milling/posed_program.hpp"
+#include "programs/retraction.hpp"
 
 namespace frustum::app {
 
@@ -18,6 +19,10 @@ int write_piece(const PieceOptions& options, const WritesPiece& write) {
   if (!loaded) return refuse(loaded.error(), options);
   const auto written = write(*loaded, *file);
   if (!written) return refuse(written.error(), options);
+  if (auto doubt = programs::doubt_of_retraction(*loaded)) {
+    doubt->file = file->string();
+    print(std::cerr, {*doubt});
+  }
   if (options.json) {
     nlohmann::ordered_json doc{{"schema", "frustum/program/1"},
                                {"version", program_version()},
