@@ -18,11 +18,13 @@
 #include <utility>
 #include <vector>
 
+#include "core/box.hpp"
 #include "core/constants.hpp"
 #include "cutter/search/group_reach.hpp"
 #include "cutter/search/pair_crossing.hpp"
 #include "cutter/search/ray_search.hpp"
 #include "cutter/sweep/concave_sweep.hpp"
+#include "cutter/sweep/swept_box.hpp"
 
 namespace frustum::cutter {
 
@@ -283,6 +285,11 @@ class GroupSearch {
     }
     solve_parts(segment, motion);
     const auto sections = sweep_.body->sections();
+    if (parts_.size() == sections.size()) return;
+    if (ConcaveSweep(*sweep_.body, motion, question_.ray).slides()) {
+      walk_later(group, segment, motion);
+      return;
+    }
     for (auto i = static_cast<std::uint32_t>(parts_.size()); i < sections.size(); ++i) {
       found_.clear();
       append_swept_intervals(sections[i], motion, question_.ray, goal_.known(), found_);
@@ -317,6 +324,20 @@ class GroupSearch {
                                               const SegmentInterval& f) {
     return {{f.lo.s, segment, section, f.lo.t, f.lo.face},
             {f.hi.s, segment, section, f.hi.t, f.hi.face}};
+  }
+
+  // Wherever the cutter may come to.
+  void walk_later(std::uint32_t group, std::uint32_t segment, const SegmentMotion& motion) {
+    const Body& body = *sweep_.body;
+    const RaySpan in_box =
+        BoxCrossing(question_.ray)
+            .within(swept_box({0.0, body.height(), body.max_radius()}, motion), goal_.span());
+    for_each_unknown(in_box.lo, in_box.hi, [&](double lo, double hi) {
+      Gap gap{group, segment};
+      gap.lo.s = lo;
+      gap.hi.s = hi;
+      gaps_.push_back(gap);
+    });
   }
 
   // Between what is known of a hull's sweep: covered if the body is there
