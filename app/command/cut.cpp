@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
@@ -25,6 +26,7 @@
 #include "report/picture/picture.hpp"
 #include "stock/mesh/decimate_surface.hpp"
 #include "stock/mesh/io/mesh_file.hpp"
+#include "stock/mesh/surface_sequence.hpp"
 
 namespace frustum::app {
 namespace {
@@ -206,9 +208,23 @@ class Cut {
     // faces.
     std::optional<stock::SurfaceMesh> whole{};
   };
-  [[nodiscard]] Result<Meshed> surface_of(const stock::WorkpieceAt& part) const {
+  // Of states that follow each other what did not change is not asked again.
+  [[nodiscard]] Result<stock::SurfaceMesh> ray_surface_of(const stock::WorkpieceAt& part) {
+    if (options_.snapshots == 0) {
+      return finished_surface(job_, part, {options_.pitch, options_.chord});
+    }
+    if (!surfaces_) {
+      const auto pitch = surface_pitch(job_, workpiece().blank().bounds(), options_.pitch);
+      if (!pitch) return pitch.error();
+      surfaces_.emplace(workpiece(), *pitch);
+    }
+    auto mesh = surfaces_->at(part.program_state());
+    if (!mesh) return mesh.error();
+    return finished_surface(job_, part, *std::move(mesh), options_.chord);
+  }
+  [[nodiscard]] Result<Meshed> surface_of(const stock::WorkpieceAt& part) {
     if (!options_.polyhedral()) {
-      auto mesh = finished_surface(job_, part, {options_.pitch, options_.chord});
+      auto mesh = ray_surface_of(part);
       if (!mesh) return mesh.error();
       if (options_.decimate <= 0.0) return Meshed{*std::move(mesh), {}, {}};
       auto fewer = stock::decimate_surface(*mesh, Mm{options_.decimate});
@@ -282,7 +298,7 @@ class Cut {
         return written.error();
       }
       result_.snapshots.push_back(
-          {file.string(), program_state, stock::measure(meshed->mesh).volume});
+          {file.string(), program_state, stock::enclosed_volume(meshed->mesh)});
     }
     // The index comes last: where it is, the series is complete.
     const auto index = write_whole_file(fs::path(name).replace_extension(".json"),
@@ -313,6 +329,7 @@ class Cut {
   const trials::Trial& trial_;
   TrialRun& run_;
   CutResult result_{};
+  std::optional<stock::SurfaceSequence> surfaces_{};  // of snapshots and of what follows them
 };
 
 void tell_collisions(const Job& job, const CutResult& result) {

@@ -266,12 +266,19 @@ Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::Workpie
   const auto pitch = surface_pitch(job, box, request.pitch);
   if (!pitch) return pitch.error();
   auto mesh = stock::extract_surface(part, box, *pitch);
-  if (mesh && request.chord > 0.0) {
-    auto refined = stock::refine_surface(part, *std::move(mesh), {.chord = Mm{request.chord}});
+  if (!mesh) return mesh.error();
+  return finished_surface(job, part, *std::move(mesh), request.chord);
+}
+
+Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::WorkpieceAt& part,
+                                            stock::SurfaceMesh extracted, double chord) {
+  stock::SurfaceMesh mesh = std::move(extracted);
+  if (chord > 0.0) {
+    auto refined = stock::refine_surface(part, std::move(mesh), {.chord = Mm{chord}});
     if (!refined) return refined.error();
     mesh = std::move(refined->mesh);
   }
-  if (mesh) judge_surface(job, *mesh);
+  judge_surface(job, mesh);
   return mesh;
 }
 

@@ -34,6 +34,11 @@ struct SurfaceRequest {
 [[nodiscard]] Result<stock::SurfaceMesh> finished_surface(const Job& job,
                                                           const stock::WorkpieceAt& part,
                                                           const SurfaceRequest& request);
+// The same of a surface that was extracted at that state.
+[[nodiscard]] Result<stock::SurfaceMesh> finished_surface(const Job& job,
+                                                          const stock::WorkpieceAt& part,
+                                                          stock::SurfaceMesh extracted,
+                                                          double chord);
 // Fills the deviations of a mesh: from the job's nominal mesh if it has one, or else from the
 // plan's nominal surfaces.
 void judge_surface(const Job& job, stock::SurfaceMesh& mesh);

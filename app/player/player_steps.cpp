@@ -5,6 +5,7 @@
 
 #include "app/job/job_report.hpp"
 #include "stock/mesh/decimate_surface.hpp"
+#include "stock/mesh/surface_sequence.hpp"
 
 namespace frustum::app {
 namespace {
@@ -25,15 +26,15 @@ Result<std::vector<WorkpieceStep>> workpiece_steps(const Job& job,
     const auto later = stock::equally_spaced(path, request.count, stock::end_of(path));
     states.insert(states.end(), later.begin(), later.end());
   }
+  stock::SurfaceSequence surfaces(workpiece, *pitch);
   std::vector<WorkpieceStep> steps;
   for (const stock::ProgramState& state : states) {
     at(static_cast<double>(steps.size()) / static_cast<double>(states.size()));
     // What has not cut since shows nothing new.
     if (!steps.empty() && state.segments == steps.back().state.segments) continue;
-    auto mesh = stock::extract_surface(stock::WorkpieceAt(workpiece, state),
-                                       workpiece.blank().bounds(), *pitch);
+    auto mesh = surfaces.at(state);
     if (!mesh) return mesh.error();
-    const double volume = mesh->triangles.empty() ? 0.0 : stock::measure(*mesh).volume;
+    const double volume = stock::enclosed_volume(*mesh);
     auto fewer = stock::decimate_surface(*mesh, Mm{kToleranceOfPitch * pitch->value});
     steps.push_back({state, volume, fewer ? *std::move(fewer) : *std::move(mesh)});
   }

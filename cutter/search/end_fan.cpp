@@ -22,9 +22,7 @@ EndFan::EndFan(const SeparatingPlane& plane, std::span<const GroupPair> pairs,
   }
 }
 
-const EndFan* EndFans::of(const Maker& maker, const SeparatingPlane& plane,
-                          std::span<const GroupPair> pairs, std::span<const std::uint32_t> groups) {
-  constexpr std::size_t kMost = 32;
+const EndFan* EndFans::near_by(const Maker& maker, const SeparatingPlane& plane) const {
   const EndFan* nearest = nullptr;
   double nearest2 = near_by_ * near_by_;
   for (const Made& made : all_) {
@@ -33,7 +31,13 @@ const EndFan* EndFans::of(const Maker& maker, const SeparatingPlane& plane,
     nearest = &made.fan;
     nearest2 = away2;
   }
-  if (nearest != nullptr) return nearest;
+  return nearest;
+}
+
+const EndFan* EndFans::of(const Maker& maker, const SeparatingPlane& plane,
+                          std::span<const GroupPair> pairs, std::span<const std::uint32_t> groups) {
+  constexpr std::size_t kMost = 32;
+  if (const EndFan* nearest = near_by(maker, plane)) return nearest;
   if (all_.size() == kMost) return nullptr;
   if (all_.empty()) all_.reserve(kMost);
   all_.push_back({maker, EndFan(plane, pairs, groups)});

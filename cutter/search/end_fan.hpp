@@ -77,6 +77,8 @@ class EndFans {
   [[nodiscard]] const EndFan* of(const Maker& maker, const SeparatingPlane& plane,
                                  std::span<const GroupPair> pairs,
                                  std::span<const std::uint32_t> groups);
+  // The nearest; null: none is near by.
+  [[nodiscard]] const EndFan* near_by(const Maker& maker, const SeparatingPlane& plane) const;
 
  private:
   struct Made {

@@ -3,7 +3,8 @@
 // Model    : groups that the goal does not want any more are left aside; of the others the
 //            representative adds what it covers, and the halves are asked, what promises most
 //            first, down to the path segments themselves. What a concave body covers beside its
-//            convex parts is asked last
+//            convex parts is asked last. What covers nothing within the span changes nothing, not
+//            even the order of the others: segments that are far from a ray may be excluded or not
 // Units    : mm along the ray; frame: workpiece
 // Errors   : none
 // Accuracy : as ray_search.hpp
@@ -17,11 +18,13 @@
 #include <utility>
 #include <vector>
 
+#include "core/box.hpp"
 #include "core/constants.hpp"
 #include "cutter/search/group_reach.hpp"
 #include "cutter/search/pair_crossing.hpp"
 #include "cutter/search/ray_search.hpp"
 #include "cutter/sweep/concave_sweep.hpp"
+#include "cutter/sweep/swept_box.hpp"
 
 namespace frustum::cutter {
 
@@ -103,6 +106,10 @@ class GroupSearch {
     std::uint32_t group = 0;
     int change = 0;  // of the goal, when it was judged
   };
+  // Of equal promises the lower group comes first, whatever else is open.
+  [[nodiscard]] static bool is_later(const Candidate& a, const Candidate& b) {
+    return a.promise != b.promise ? a.promise < b.promise : a.group > b.group;
+  }
   // Between an end of what a concave section's hull sweeps, or of what was known then, and the
   // next: what of it the body covers is asked last, when least is left of it. `is_end`: of the
   // body's own sweep.
@@ -160,9 +167,9 @@ class GroupSearch {
       has_best_ = true;
       return;
     }
-    const bool is_better = next.promise > best_.promise;
+    const bool is_better = is_later(best_, next);
     open_.push_back(is_better ? best_ : next);
-    std::ranges::push_heap(open_, {}, &Candidate::promise);
+    std::ranges::push_heap(open_, is_later);
     if (is_better) best_ = next;
   }
   void fetch_under(std::uint32_t index) const {
@@ -173,10 +180,10 @@ class GroupSearch {
     for (std::size_t k = 0; k < sizeof(GroupPair); k += kLine) __builtin_prefetch(bytes + k);
   }
   bool take_best(Candidate& next) {
-    const bool is_in_heap = !open_.empty() && (!has_best_ || open_.front().promise > best_.promise);
+    const bool is_in_heap = !open_.empty() && (!has_best_ || is_later(best_, open_.front()));
     if (is_in_heap) {
       next = open_.front();
-      std::ranges::pop_heap(open_, {}, &Candidate::promise);
+      std::ranges::pop_heap(open_, is_later);
       open_.pop_back();
       return true;
     }
@@ -193,8 +200,17 @@ class GroupSearch {
     }
   }
   void take_chord(const Chord& chord, std::uint32_t segment, std::uint32_t part) {
+    if (!is_in_span(chord.lo, chord.hi)) return;
     goal_.take({{chord.lo, segment, part, 0.0, chord.lo_face},
                 {chord.hi, segment, part, 0.0, chord.hi_face}});
+  }
+
+  void take_solved(const SweptInterval& solved) {
+    if (is_in_span(solved.lo.s, solved.hi.s)) goal_.take_solved(solved);
+  }
+  [[nodiscard]] bool is_in_span(double lo, double hi) const {
+    const RaySpan span = goal_.span();
+    return lo <= span.hi && hi >= span.lo;
   }
 
   GroupReach reach_by_representative(const PoseGroup& group) {
@@ -269,6 +285,11 @@ class GroupSearch {
     }
     solve_parts(segment, motion);
     const auto sections = sweep_.body->sections();
+    if (parts_.size() == sections.size()) return;
+    if (ConcaveSweep(*sweep_.body, motion, question_.ray).slides()) {
+      walk_later(group, segment, motion);
+      return;
+    }
     for (auto i = static_cast<std::uint32_t>(parts_.size()); i < sections.size(); ++i) {
       found_.clear();
       append_swept_intervals(sections[i], motion, question_.ray, goal_.known(), found_);
@@ -295,7 +316,7 @@ class GroupSearch {
     for (std::uint32_t i = 0; i < parts_.size(); ++i) {
       found_.clear();
       append_swept_intervals(parts_[i], motion, question_.ray, goal_.floors(), found_);
-      for (const SegmentInterval& f : found_) goal_.take_solved(swept_of(segment, i, f));
+      for (const SegmentInterval& f : found_) take_solved(swept_of(segment, i, f));
     }
   }
 
@@ -303,6 +324,20 @@ class GroupSearch {
                                               const SegmentInterval& f) {
     return {{f.lo.s, segment, section, f.lo.t, f.lo.face},
             {f.hi.s, segment, section, f.hi.t, f.hi.face}};
+  }
+
+  // Wherever the cutter may come to.
+  void walk_later(std::uint32_t group, std::uint32_t segment, const SegmentMotion& motion) {
+    const Body& body = *sweep_.body;
+    const RaySpan in_box =
+        BoxCrossing(question_.ray)
+            .within(swept_box({0.0, body.height(), body.max_radius()}, motion), goal_.span());
+    for_each_unknown(in_box.lo, in_box.hi, [&](double lo, double hi) {
+      Gap gap{group, segment};
+      gap.lo.s = lo;
+      gap.hi.s = hi;
+      gaps_.push_back(gap);
+    });
   }
 
   // Between what is known of a hull's sweep: covered if the body is there
@@ -320,7 +355,7 @@ class GroupSearch {
                            (gap.lo_is_end && concave.covers_from(hi, swept_end(swept.lo)));
       (covered ? covered_ : gaps_).push_back(gap);
     });
-    for (const Gap& c : covered_) goal_.take_solved({c.lo, c.hi});
+    for (const Gap& c : covered_) take_solved({c.lo, c.hi});
   }
 
   // What of lo to hi is not known to be covered, in order. `then` must not take anything.
@@ -352,7 +387,7 @@ class GroupSearch {
     found_.clear();
     for_each_unknown(gap.lo.s, gap.hi.s,
                      [&](double lo, double hi) { concave.walk(lo, hi, found_); });
-    for (const SegmentInterval& f : found_) goal_.take_solved({end_at(f.lo), end_at(f.hi)});
+    for (const SegmentInterval& f : found_) take_solved({end_at(f.lo), end_at(f.hi)});
   }
 
   const RayQuestion& question_;

@@ -77,7 +77,8 @@ class Climb {
     return static_cast<std::uint32_t>(i);
   }
 
-  // How far the cutter reaches at a pose, counted from the first of the segment.
+  // How far the cutter reaches at a pose, counted from the first of the segment; what is beside
+  // the asked span is no reach.
   [[nodiscard]] double depth(std::int64_t offset) const {
     if (!segment_at(offset) && !segment_at(offset - 1)) return -kInfinity;
     const auto pose = static_cast<std::size_t>(
@@ -85,7 +86,8 @@ class Climb {
     double most = -kInfinity;
     for (const Profile& part : body_.parts()) {
       const auto chord = part.chord(question_.path->poses[pose], question_.ray);
-      if (chord) most = std::max(most, leaving_ ? chord->hi : -chord->lo);
+      if (!chord || chord->lo > question_.span.hi || chord->hi < question_.span.lo) continue;
+      most = std::max(most, leaving_ ? chord->hi : -chord->lo);
     }
     return most;
   }

@@ -256,30 +256,33 @@ class Front {
   int change_ = 0;
 };
 
-// What fans hold back of a list of groups as the front moves.
+// What fans hold back of a list of groups as the front moves. A fan is made where the front is
+// before any group is asked, and only there: so the fans that later rays find do not depend on
+// groups of the list that cover nothing of this one.
 class FrontFans {
  public:
   FrontFans(Front& goal, const ToolSweep& sweep, std::span<const std::uint32_t> groups,
             EndFans* fans)
-      : goal_(goal), pairs_(sweep.tree.pairs()), groups_(groups), fans_(fans) {}
+      : goal_(goal), fans_(fans) {
+    if (fans_ == nullptr || !goal_.moved()) return;
+    look(fans_->of(maker(), goal_.plane(), sweep.tree.pairs(), groups));
+  }
 
   [[nodiscard]] bool hold(std::size_t i) {
     if (fans_ == nullptr || !goal_.moved()) return false;
-    if (goal_.change() != change_) look();
+    if (goal_.change() != change_) look(fans_->near_by(maker(), goal_.plane()));
     return fan_ != nullptr && fan_->holds(i, at_);
   }
 
  private:
-  void look() {
+  [[nodiscard]] EndFans::Maker maker() const { return {goal_.end().section, goal_.end().face}; }
+  void look(const EndFan* fan) {
     change_ = goal_.change();
-    const SeparatingPlane& plane = goal_.plane();
-    fan_ = fans_->of({goal_.end().section, goal_.end().face}, plane, pairs_, groups_);
-    if (fan_ != nullptr) at_ = fan_->beside(plane.end(), plane.beyond());
+    fan_ = fan;
+    if (fan_ != nullptr) at_ = fan_->beside(goal_.plane().end(), goal_.plane().beyond());
   }
 
   Front& goal_;
-  std::span<const GroupPair> pairs_;
-  std::span<const std::uint32_t> groups_;
   EndFans* fans_;
   const EndFan* fan_ = nullptr;
   EndFan::Beside at_{};

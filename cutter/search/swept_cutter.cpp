@@ -288,7 +288,9 @@ SweepContact SweptCutter::contact(const Ray& ray, double s, std::uint32_t segmen
       return contact_of(ray, {s, segment, 0, only->t, only->face});
   }
   const ConcaveSweep concave(body, motion, ray);
-  for (std::uint32_t section = 0; section < body.sections().size(); ++section) {
+  const bool is_whole = body.concave().empty() || !concave.slides();
+  const std::size_t solved = is_whole ? body.sections().size() : body.parts().size();
+  for (std::uint32_t section = 0; section < solved; ++section) {
     for (const SegmentInterval& i : swept_intervals(body.sections()[section], motion, ray)) {
       for (const SweptEnd& e : {i.lo, i.hi}) {
         if (std::abs(e.s - s) >= nearest) continue;

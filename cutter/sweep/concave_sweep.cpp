@@ -17,8 +17,8 @@ constexpr double kSameSurface = 1e-11;
 // Steps along a ray are no shorter than this (mm): what begins and ends within one enters by half
 // of it.
 constexpr double kLeastStep = 2.0 * kMissedDepth;
-// After so many steps it is seen whether the ray is in front of an end, and where it slides along
-// the surface the least step doubles, up to this (mm).
+// Where the ray slides along the surface the least step doubles after so many steps, up to this
+// (mm).
 constexpr int kSlid = 64;
 constexpr double kLongestLeastStep = 1e-3;
 // Of what is sampled of phi nothing is farther from the truth (mm); and moments that bracket one
@@ -56,6 +56,36 @@ class LeastStep {
   int slid_ = 0;
 };
 
+double to_line(const MeridianPoint& p, const MeridianPoint& a, const MeridianPoint& b) {
+  const double r = b.r - a.r, z = b.z - a.z, whole = r * r + z * z;
+  const double share =
+      whole > 0.0 ? std::clamp(((p.r - a.r) * r + (p.z - a.z) * z) / whole, 0.0, 1.0) : 0.0;
+  const double dr = p.r - a.r - share * r, dz = p.z - a.z - share * z;
+  return std::sqrt(dr * dr + dz * dz);
+}
+// Twice the area of a triangle, above 0 counter-clockwise.
+double twice_area(const MeridianPoint& a, const MeridianPoint& b, const MeridianPoint& c) {
+  return (b.r - a.r) * (c.z - a.z) - (b.z - a.z) * (c.r - a.r);
+}
+double away(const MeridianPoint& a, const MeridianPoint& b) {
+  return std::sqrt((a.r - b.r) * (a.r - b.r) + (a.z - b.z) * (a.z - b.z));
+}
+
+// No place on the straight line from a to b is nearer to the piece than this; of an arc, to its
+// circle.
+double between(const MeridianPoint& a, const MeridianPoint& b, const GeneratrixSegment& piece) {
+  if (is_arc(piece)) {
+    const double inside = piece.arc_radius - std::max(away(a, piece.centre), away(b, piece.centre));
+    return std::max({0.0, inside, to_line(piece.centre, a, b) - piece.arc_radius});
+  }
+  const bool crosses =
+      twice_area(a, b, piece.from) * twice_area(a, b, piece.to) <= 0.0 &&
+      twice_area(piece.from, piece.to, a) * twice_area(piece.from, piece.to, b) <= 0.0;
+  if (crosses) return 0.0;
+  return std::min({to_line(a, piece.from, piece.to), to_line(b, piece.from, piece.to),
+                   to_line(piece.from, a, b), to_line(piece.to, a, b)});
+}
+
 }  // namespace
 
 double concave_accuracy(const Body& body) {
@@ -82,17 +112,91 @@ ConcaveSweep::ConcaveSweep(const Body& body, const SegmentMotion& motion, const 
     : body_(body),
       motion_(motion),
       ray_(ray),
+      step_(motion.at(1.0).tip - motion.at(0.0).tip),
+      run_(step_.norm()),
+      pivot_(motion.at(0.0).axis.cross(motion.at(1.0).axis).stableNormalized()),
       sample_(sample_motion(body)),
       steps_(1 + static_cast<int>(motion.travel() / sample_)) {}
 
-// Counted from just below the surface.
-double ConcaveSweep::distance(double s, double t) const {
+ConcaveSweep::Look ConcaveSweep::look(double s, double t) const {
   ++looks_;
-  return body_.distance(motion_.at(t), ray_.at(s)) + kOnSurface;
+  const ToolPose pose = motion_.at(t);
+  const Vec3 m = ray_.at(s) - pose.tip;
+  const double z = m.dot(pose.axis), r = (m - z * pose.axis).norm();
+  return {t,
+          body_.generatrix().distance(r, z) + kOnSurface,
+          {r, z},
+          (m - m.dot(pivot_) * pivot_).norm(),
+          std::abs(ray_.direction.dot(pose.axis))};
+}
+
+// The generatrix stays so far from where a place is on the meridian, which is on the straight line
+// from `a` to `b` or beside it, in radius by no more than `aside`.
+double ConcaveSweep::clearance(const MeridianPoint& a, const MeridianPoint& b, double aside) const {
+  // A line that is nearly level is made longer: what is beside it in radius is above or below it
+  // by little.
+  constexpr double kLevel = 0.1;
+  MeridianPoint from = a, to = b;
+  if (from.r > to.r) std::swap(from, to);
+  double lost = aside;
+  if (const double rise = std::abs(to.z - from.z), run = to.r - from.r; rise <= kLevel * run) {
+    const double slope = (to.z - from.z) / run;
+    from = {from.r - aside, from.z - slope * aside};
+    to = {to.r + aside, to.z + slope * aside};
+    lost = 2.0 * rise / run * aside;
+  } else if (run + rise < 2.0 * aside) {
+    const double z = 0.5 * (from.z + to.z);
+    lost = 0.5 * rise;
+    from = {from.r - aside, z};
+    to = {to.r + aside, z};
+  }
+  double least = kInfinity;
+  for (const GeneratrixSegment& piece : body_.generatrix().segments())
+    least = std::min(least, between(from, to, piece));
+  const MeridianPoint rim = body_.generatrix().segments().back().to;
+  return std::min(least, between(from, to, line(rim, {0.0, rim.z}))) - lost;
+}
+
+// A body of revolution is between the planes of its ends, so that no distance is less than the
+// height in front of one of them, nor of a place behind one the depth more than its height. The
+// height is linear along the ray, and within bend dt^2 / 8 of a straight line in time. A place
+// moves against the body no faster than the tip, and as the tool turns about that: so does its
+// radius, whose second derivative is no more than speed^2 / r, and the acceleration.
+double ConcaveSweep::least_between(const Look& a, const Look& b, double reach,
+                                   double enough) const {
+  const double dt = b.t - a.t, turn = motion_.turn() * dt;
+  const double far = std::max(a.away, b.away) + reach, run = run_ * dt;
+  const double bulge = turn * (turn * far + 2.0 * run) / 8.0, moved = run + turn * far;
+  const double climb = reach * std::max(a.climb, b.climb);
+  const double highest = std::max(a.place.z, b.place.z) + climb + bulge;
+  const double lowest = std::min(a.place.z, b.place.z) - climb - bulge;
+  const double least = std::max(0.5 * (a.distance + b.distance - moved) - reach,
+                                std::max(-highest, lowest - body_.height()) + kOnSurface);
+  if (least >= enough || !(a.distance > 0.0 && b.distance > 0.0)) return least;
+  const double radius = std::min(a.place.r, b.place.r) - 0.5 * moved;
+  if (!(radius > 0.0)) return least;
+  const double aside = std::min(moved, moved * moved / (8.0 * radius) + bulge) + reach;
+  return std::max(least, clearance(a.place, b.place, aside) - climb - bulge + kOnSurface);
+}
+double ConcaveSweep::least_beside(const Look& at, double reach) const {
+  return least_between(at, at, reach, 0.0);
 }
 
 bool ConcaveSweep::is_of_body(const SweptEnd& end) const {
   return std::abs(body_.distance(motion_.at(end.t), ray_.at(end.s))) <= kSameSurface;
+}
+
+bool ConcaveSweep::slides() const {
+  constexpr double kLevel = 0.1, kNear = 1.0;  // the sine against the end; mm
+  if (motion_.turn() == 0.0) return false;
+  bool is_near = false;
+  for (const double t : {0.0, 0.5, 1.0}) {
+    const ToolPose pose = motion_.at(t);
+    if (std::abs(ray_.direction.dot(pose.axis)) > kLevel) return false;
+    const Vec3 nearest = ray_.at((pose.tip - ray_.origin).dot(ray_.direction));
+    is_near = is_near || std::abs((nearest - pose.tip).dot(pose.axis)) < kNear;
+  }
+  return is_near;
 }
 
 bool ConcaveSweep::covers_from(double from, const SweptEnd& end) const {
@@ -107,51 +211,49 @@ bool ConcaveSweep::covers_from(double from, const SweptEnd& end) const {
   return true;
 }
 
-// A body of revolution is between the planes of its ends: what is in front of one of them, but for
-// what counts as on the surface, is not covered. The height over such a plane is linear along the
-// ray, and within bend dt^2 / 8 of a straight line in time.
-bool ConcaveSweep::is_in_front(double lo, double hi) const {
-  struct Part {
-    double t0, height0, t1, height1;
-  };
+// Whether no moment covers anything from lo to hi, by halves of the motion. `likely`: a moment to
+// begin with; and then one that speaks against it.
+bool ConcaveSweep::is_outside(double lo, double hi, double& likely) const {
   constexpr std::size_t kMostParts = 200;
-  const ToolPose from = motion_.at(0.0);
-  const Vec3 a = ray_.at(lo), b = ray_.at(hi);
-  const double run = (motion_.at(1.0).tip - from.tip).norm();
-  const double far = std::max((a - from.tip).norm(), (b - from.tip).norm()) + run;
-  const double bend = motion_.turn() * (motion_.turn() * far + 2.0 * run);
-  const auto in_front = [&](double up, double end) {
-    const auto height = [&](double t) {
-      const ToolPose pose = motion_.at(t);
-      return std::max(up * (a - pose.tip).dot(pose.axis), up * (b - pose.tip).dot(pose.axis)) - end;
-    };
-    std::array<Part, kMostParts + 1> open;
-    open[0] = {0.0, height(0.0), 1.0, height(1.0)};
-    std::size_t count = 1;
-    for (std::size_t looks = 0; count > 0;) {
-      const Part part = open[--count];
-      const double upper = std::max(part.height0, part.height1), dt = part.t1 - part.t0;
-      if (upper > kOnSurface) return false;
-      if (upper + bend * dt * dt / 8.0 <= kOnSurface) continue;
-      if (++looks == kMostParts) return false;
-      const double t = 0.5 * (part.t0 + part.t1), middle = height(t);
-      open[count++] = {part.t0, part.height0, t, middle};
-      open[count++] = {t, middle, part.t1, part.height1};
-    }
+  struct Part {
+    Look from, to;
+  };
+  const double s = 0.5 * (lo + hi), reach = 0.5 * (hi - lo);
+  const auto is_hopeless = [&](const Look& at) {
+    if (least_beside(at, reach) >= 0.0) return false;
+    likely = at.t;
     return true;
   };
-  return in_front(1.0, 0.0) || in_front(-1.0, -body_.height());
+  const Look begin = look(s, 0.0), middle = look(s, likely), end = look(s, 1.0);
+  if (is_hopeless(middle) || is_hopeless(begin) || is_hopeless(end)) return false;
+  std::array<Part, kMostParts + 2> open;
+  open[0] = {begin, middle};
+  open[1] = {middle, end};
+  std::size_t count = 2;
+  for (std::size_t looks = 0; count > 0;) {
+    const Part part = open[--count];
+    if (least_between(part.from, part.to, reach, 0.0) >= 0.0) continue;
+    if (++looks == kMostParts) return false;
+    const Look half = look(s, 0.5 * (part.from.t + part.to.t));
+    if (is_hopeless(half)) return false;
+    open[count++] = {part.from, half};
+    open[count++] = {half, part.to};
+  }
+  return true;
 }
 
-// From a place where it is not covered to how far it surely is not, because it is in front of an
-// end; the place itself where that is nearby.
-double ConcaveSweep::in_front_from(double s, double hi) const {
-  if (is_in_front(s, hi)) return hi;
-  double sure = s;
-  for (double step = 0.5 * (hi - s); step > kLongestLeastStep; step *= 0.5) {
-    if (is_in_front(sure, sure + step)) sure += step;
+// From a place where it is not covered to how far it surely is not; the place itself where that is
+// nearby. `stretch`: how long to try, and how long to try the next time.
+double ConcaveSweep::outside_until(double s, double hi, double& likely, double& stretch) const {
+  constexpr double kLess = 0.25;
+  for (stretch = std::min(stretch, hi - s); stretch > kLeastStep; stretch *= kLess) {
+    if (!is_outside(s, s + stretch, likely)) continue;
+    const double until = s + stretch;
+    stretch /= kLess;
+    return until;
   }
-  return sure;
+  stretch = kLeastStep / kLess;
+  return s;
 }
 
 // The body at one moment goes on until the ray crosses its surface: for straight pieces of the
@@ -162,7 +264,7 @@ double ConcaveSweep::covered_until(double s, double t, double hi) const {
   const double dz = ray_.direction.dot(pose.axis);
   const Vec3 v = ray_.direction - dz * pose.axis;
   // A land of the end is met at a slant that arcs far from it do not care about: again and again.
-  constexpr int kMostSteps = 100;
+  constexpr int kMostSteps = 20;
   double sure = s;
   for (int i = 0; i < kMostSteps && sure < hi; ++i) {
     const Vec3 m = ray_.at(sure) - pose.tip;
@@ -198,35 +300,101 @@ double ConcaveSweep::covered_until(double s, double t, double hi) const {
   return sure;
 }
 
+// Moments that cover the place follow each other; as the body moves on, so does where it ends.
+ConcaveSweep::Covered ConcaveSweep::covered_around(double s, double t, double hi) const {
+  Covered best{covered_until(s, t, hi), t};
+  for (const double sense : {1.0, -1.0}) {
+    for (double step = sense / steps_; best.until < hi; step *= 2.0) {
+      const double at = std::clamp(t + step, 0.0, 1.0);
+      if (at == t || !(distance(s, at) < 0.0)) break;
+      if (const double until = covered_until(s, at, hi); until > best.until) best = {until, at};
+      if (at == 0.0 || at == 1.0) break;
+    }
+  }
+  return best;
+}
+
+// From s, which it covers at t, to a place farther on: at moments that follow the place evenly, so
+// that it stays inside.
+bool ConcaveSweep::covers_along(double s, double t, double next, double next_t) const {
+  const Look a = look(s, t), b = look(next, next_t);
+  if (!(a.distance < 0.0 && b.distance < 0.0)) return false;
+  const double turn = motion_.turn() * std::abs(next_t - t), far = std::max(a.away, b.away);
+  const double run = ((next - s) * ray_.direction - (next_t - t) * step_).norm();
+  const double bulge = turn * (turn * far + 2.0 * run) / 8.0, moved = run + turn * far;
+  const double radius = std::min(a.place.r, b.place.r) - 0.5 * moved;
+  if (!(radius > 0.0)) return false;
+  const double aside = std::min(moved, moved * moved / (8.0 * radius) + bulge);
+  return clearance(a.place, b.place, aside) - bulge > kOnSurface;
+}
+
+// How moments follow the place depends on where the body passes it: as fast as that goes, or some
+// times faster.
+ConcaveSweep::Covered ConcaveSweep::covered_along(double s, double t, double hi,
+                                                  Following& last) const {
+  constexpr double kLess = 0.25, kMore = 2.0, kAsFast = 16.0;
+  double& stretch = last.stretch;
+  constexpr double kSameState = 1e-9;  // mm of motion
+  const Look here = look(s, t);
+  const double speed = run_ + motion_.turn() * here.away;
+  for (stretch = std::min(stretch, hi - s); stretch > kLeastStep; stretch *= kLess) {
+    const double next = s + stretch;
+    const double window = (kAsFast / speed + 2.0 * std::abs(last.pace)) * stretch;
+    const GoldenBracket deepest =
+        golden_section([&](double at) { return distance(next, at); }, std::max(0.0, t - window),
+                       std::min(1.0, t + window), kSameState / motion_.travel());
+    if (!covers_along(s, t, next, deepest.at)) continue;
+    last.pace = (deepest.at - t) / stretch;
+    stretch *= kMore;
+    return {next, deepest.at};
+  }
+  stretch = kLeastStep / kLess;
+  return {s, t};
+}
+
 void ConcaveSweep::walk(double lo, double hi, std::vector<SegmentInterval>& found) const {
   LeastStep least;
-  double s = lo;
-  Nearest here = nearest(s);
+  double s = lo, stretch = hi - lo;
+  Following follow{hi - lo};
+  Nearest here = nearest(s, 0.5, Want::side);
+  bool is_known = true;  // how far it is there
   std::optional<SweptEnd> begin;
   if (here.distance < 0.0) begin = SweptEnd{s, here.t};
-  for (int step = 0; s < hi; ++step) {
+  while (s < hi) {
+    if (begin) {
+      Covered covered = covered_around(s, here.t, hi);
+      constexpr double kShort = 0.02;  // mm: not worth while
+      if (covered.until < std::min(hi, s + kShort)) {
+        here = nearest(s, here.t, Want::least);
+        const Covered along = covered_along(s, here.t, hi, follow);
+        if (along.until > covered.until) covered = along;
+      }
+      if (covered.until > s + kLeastStep) {
+        s = covered.until;
+        here = nearest(s, covered.t, Want::side);
+        continue;
+      }
+    } else {
+      if (const double next = outside_until(s, hi, here.t, stretch); next > s) {
+        s = next;
+        is_known = false;
+        continue;
+      }
+      if (!is_known) here = nearest(s, here.t, Want::side);
+      is_known = true;
+      if (here.distance < 0.0) {
+        begin = SweptEnd{s, here.t};
+        continue;
+      }
+    }
     const double away = std::abs(here.distance);
     const double sure = std::max(away, least.at(away));
-    if (!begin && step % kSlid == 0) {
-      if (const double next = in_front_from(s, hi); next > s) {
-        s = next;
-        here = {kOnSurface, here.t};
-        continue;
-      }
-    }
     double next = std::min(hi, s + 1.8 * sure);
-    if (begin) {
-      if (const double covered = covered_until(s, here.t, hi); covered > next) {
-        s = covered;
-        here = nearest(s);
-        continue;
-      }
-    }
-    Nearest there = nearest(next);
+    Nearest there = nearest(next, here.t, Want::side);
     const bool flips = (there.distance < 0.0) != (here.distance < 0.0);
     if (!flips && std::abs(there.distance) + sure < next - s) {  // an end may be between
       next = std::min(hi, s + sure);
-      there = nearest(next);
+      there = nearest(next, here.t, Want::side);
     }
     if ((there.distance < 0.0) != (here.distance < 0.0)) {
       const SweptEnd end = close_in(s, here, next, there);
@@ -243,29 +411,52 @@ void ConcaveSweep::walk(double lo, double hi, std::vector<SegmentInterval>& foun
   if (begin) found.push_back({*begin, {hi, here.t}});
 }
 
-ConcaveSweep::Nearest ConcaveSweep::nearest(double s) const {
-  thread_local std::vector<Nearest> looked;  // kept for its memory
+ConcaveSweep::Nearest ConcaveSweep::nearest(double s, double likely, Want want) const {
+  thread_local std::vector<Look> looked;  // kept for its memory
   looked.clear();
-  const double dt = 1.0 / steps_;
-  const double way = motion_.travel() * dt;
+  constexpr double kSameDepth = 1e-12;  // mm, above rounding
+  struct Part {
+    int i, j;
+    Look from, to;
+  };
+  constexpr std::size_t kMostOpen = 80;  // twice the halvings of an int, and two
+  std::array<Part, kMostOpen> open;
+  std::size_t count = 0;
+  const double dt = 1.0 / steps_, way = motion_.travel() * dt;
   Nearest best{kInfinity, 0.0};
-  for (int i = 0; i <= steps_;) {
-    const Nearest here{distance(s, i * dt), i * dt};
+  const auto look_at = [&](int i) {
+    const Look here = look(s, i == steps_ ? 1.0 : i * dt);
     looked.push_back(here);
-    if (here.distance < best.distance) best = here;
-    // Until then it stays above the best that is known.
-    const int skipped =
-        way > 0.0 ? static_cast<int>((here.distance - best.distance) / way) : steps_;
-    i += std::max(1, skipped);
+    if (here.distance < best.distance) best = {here.distance, here.t};
+    return here;
+  };
+  const auto is_settled = [&] { return want == Want::side && best.distance < 0.0; };
+  const int middle = std::clamp(static_cast<int>(std::lround(likely * steps_)), 0, steps_);
+  const Look first = look_at(middle);
+  if (is_settled()) return best;
+  if (middle > 0) open[count++] = {0, middle, look_at(0), first};
+  if (middle < steps_) open[count++] = {middle, steps_, first, look_at(steps_)};
+  while (count > 0 && !is_settled()) {
+    const Part part = open[--count];
+    // Far from the surface it is enough to know how far at least.
+    const double enough =
+        best.distance > 2.0 * way ? 0.5 * best.distance : best.distance - kSameDepth;
+    if (part.j - part.i == 1) continue;
+    if (least_between(part.from, part.to, 0.0, enough) >= enough) continue;
+    const int half = part.i + (part.j - part.i) / 2;
+    const Look at = look_at(half);
+    Part before{part.i, half, part.from, at}, after{half, part.j, at, part.to};
+    if (part.from.distance < part.to.distance) std::swap(before, after);
+    open[count++] = before;
+    open[count++] = after;
   }
-  if (motion_.travel() == 0.0) return best;
-  // Far from the surface it is enough to know how far at least.
-  if (best.distance > 4.0 * way) return {best.distance - 0.5 * way, best.t};
-  if (best.distance < -4.0 * way) return best;
+  if (is_settled() || motion_.travel() == 0.0) return best;
+  if (best.distance > way) return {0.5 * best.distance, best.t};
   // The bottom of every valley that may go deeper than the best.
+  std::ranges::sort(looked, {}, &Look::t);
   const double may_win = best.distance + way;
-  for (std::size_t k = 0; k < looked.size(); ++k) {
-    const Nearest& here = looked[k];
+  for (std::size_t k = 0; k < looked.size() && !is_settled(); ++k) {
+    const Look& here = looked[k];
     if (here.distance > may_win) continue;
     if (k > 0 && looked[k - 1].distance <= here.distance) continue;
     if (k + 1 < looked.size() && looked[k + 1].distance < here.distance) continue;
@@ -287,7 +478,7 @@ SweptEnd ConcaveSweep::close_in(double a, Nearest at_a, double b, Nearest at_b) 
   for (int i = 0; i < 100 && b - a > kEndTolerance; ++i) {
     double x = a + (b - a) * at_a.distance / (at_a.distance - at_b.distance);
     if (i % 3 == 2 || !(x > a && x < b)) x = 0.5 * (a + b);
-    const Nearest at_x = nearest(x);
+    const Nearest at_x = nearest(x, at_a.distance < 0.0 ? at_a.t : at_b.t, Want::least);
     if (at_x.distance == 0.0) return {x, at_x.t};
     if ((at_x.distance < 0.0) == (at_a.distance < 0.0)) {
       a = x;

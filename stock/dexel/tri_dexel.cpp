@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "stock/dexel/reached_rays.hpp"
+
 namespace frustum::stock {
 namespace {
 
@@ -51,6 +53,31 @@ Diagnostic too_fine(const BoundingBox& box, double pitch) {
       fmt::format("use a pitch of {:.2g} mm or more", enough));
 }
 
+// Rays [u0, u1) of rows [v0, v1).
+struct Rectangle {
+  int u0 = 0, u1 = 0, v0 = 0, v1 = 0;
+
+  [[nodiscard]] std::size_t row() const { return static_cast<std::size_t>(u1 - u0); }
+  [[nodiscard]] bool holds(int u, int v) const { return u0 <= u && u < u1 && v0 <= v && v < v1; }
+  [[nodiscard]] std::size_t index(int u, int v) const {
+    return static_cast<std::size_t>(v - v0) * row() + static_cast<std::size_t>(u - u0);
+  }
+};
+
+// What holds all rays of a rectangle that were reached; empty where none was.
+Rectangle reached_of(const Rectangle& all, int axis, const ReachedRays& reached) {
+  if (!reached.any(axis, {{all.u0, all.v0}, {all.u1 - 1, all.v1 - 1}})) return {};
+  Rectangle around{all.u1, all.u0, all.v1, all.v0};
+  for (int v = all.v0; v < all.v1; ++v) {
+    for (int u = all.u0; u < all.u1; ++u) {
+      if (!reached.reaches(axis, u, v)) continue;
+      around = {std::min(around.u0, u), std::max(around.u1, u + 1), std::min(around.v0, v),
+                std::max(around.v1, v + 1)};
+    }
+  }
+  return around;
+}
+
 }  // namespace
 
 DexelGrid DexelGrid::over(const BoundingBox& box, double pitch) {
@@ -79,49 +106,56 @@ std::int64_t DexelGrid::rays() const {
   return x * y + y * z + z * x;
 }
 
-TriDexel::Family TriDexel::sample_family(SolidView solid, const DexelGrid& grid, int axis) {
-  const int nu = grid.nodes[static_cast<std::size_t>((axis + 1) % 3)];
-  const int nv = grid.nodes[static_cast<std::size_t>((axis + 2) % 3)];
-  const int nodes = grid.nodes[static_cast<std::size_t>(axis)];
-  const RaySpan span{0.5 * grid.pitch, (nodes - 1.5) * grid.pitch};
+void TriDexel::sample_family(SolidView solid, int axis, const Known& known) {
+  const int nu = grid_.nodes[static_cast<std::size_t>((axis + 1) % 3)];
+  const int nv = grid_.nodes[static_cast<std::size_t>((axis + 2) % 3)];
+  const int nodes = grid_.nodes[static_cast<std::size_t>(axis)];
+  const RaySpan span{0.5 * grid_.pitch, (nodes - 1.5) * grid_.pitch};
 
-  Family family;
+  Family& family = families_[static_cast<std::size_t>(axis)];
   family.first.assign(static_cast<std::size_t>(nu) * static_cast<std::size_t>(nv) + 1, 0);
   const auto index = [nu](int u, int v) {
     return static_cast<std::size_t>(v) * static_cast<std::size_t>(nu) + static_cast<std::size_t>(u);
   };
-  // Tiles of rays share their search.
+  // Tiles of rays share their search; of each the rectangle around what is not known is asked.
+  struct Tile {
+    Rectangle all{}, asked{};
+    std::vector<IntervalSet> found{};
+  };
   const int tiles_u = (nu - 2 + kTile - 1) / kTile, tiles_v = (nv - 2 + kTile - 1) / kTile;
-  std::vector<std::vector<IntervalSet>> tiles(static_cast<std::size_t>(tiles_u * tiles_v));
-  tbb::parallel_for(0, tiles_u * tiles_v, [&](int tile) {
-    const int u0 = 1 + kTile * (tile % tiles_u), v0 = 1 + kTile * (tile / tiles_u);
-    const int u1 = std::min(u0 + kTile, nu - 1), v1 = std::min(v0 + kTile, nv - 1);
+  std::vector<Tile> tiles(static_cast<std::size_t>(tiles_u * tiles_v));
+  const auto for_each_ray = [&](Tile& tile, const auto& visit) {
+    for (int v = tile.all.v0; v < tile.all.v1; ++v) {
+      for (int u = tile.all.u0; u < tile.all.u1; ++u) {
+        visit(index(u, v), tile.asked.holds(u, v) ? tile.found[tile.asked.index(u, v)].intervals()
+                                                  : known.dexels->material(axis, u, v));
+      }
+    }
+  };
+  tbb::parallel_for(0, tiles_u * tiles_v, [&](int number) {
+    Tile& tile = tiles[static_cast<std::size_t>(number)];
+    const int u0 = 1 + kTile * (number % tiles_u), v0 = 1 + kTile * (number / tiles_u);
+    tile.all = {u0, std::min(u0 + kTile, nu - 1), v0, std::min(v0 + kTile, nv - 1)};
+    tile.asked = known.dexels == nullptr ? tile.all : reached_of(tile.all, axis, *known.reached);
     std::vector<Ray> rays;
     rays.reserve(static_cast<std::size_t>(kTile) * kTile);
-    for (int v = v0; v < v1; ++v) {
-      for (int u = u0; u < u1; ++u) rays.push_back(grid.ray(axis, u, v));
+    for (int v = tile.asked.v0; v < tile.asked.v1; ++v) {
+      for (int u = tile.asked.u0; u < tile.asked.u1; ++u) rays.push_back(grid_.ray(axis, u, v));
     }
-    auto& found = tiles[static_cast<std::size_t>(tile)];
-    found = solid.material_along_all(rays, static_cast<std::size_t>(u1 - u0), span);
-    for (std::size_t r = 0; r < found.size(); ++r) {
-      const int u = u0 + static_cast<int>(r) % (u1 - u0), v = v0 + static_cast<int>(r) / (u1 - u0);
-      family.first[index(u, v) + 1] = found[r].intervals().size();
-    }
+    if (!rays.empty()) tile.found = solid.material_along_all(rays, tile.asked.row(), span);
+    for_each_ray(tile, [&](std::size_t ray, std::span<const Interval> material) {
+      family.first[ray + 1] = material.size();
+    });
   });
   std::partial_sum(family.first.begin(), family.first.end(), family.first.begin());
   family.intervals.resize(family.first.back());
-  tbb::parallel_for(0, tiles_u * tiles_v, [&](int tile) {
-    const int u0 = 1 + kTile * (tile % tiles_u), v0 = 1 + kTile * (tile / tiles_u);
-    const int width = std::min(u0 + kTile, nu - 1) - u0;
-    const auto& found = tiles[static_cast<std::size_t>(tile)];
-    for (std::size_t r = 0; r < found.size(); ++r) {
-      const int u = u0 + static_cast<int>(r) % width, v = v0 + static_cast<int>(r) / width;
-      std::ranges::copy(
-          found[r].intervals(),
-          family.intervals.begin() + static_cast<std::ptrdiff_t>(family.first[index(u, v)]));
-    }
+  tbb::parallel_for(0, tiles_u * tiles_v, [&](int number) {
+    for_each_ray(tiles[static_cast<std::size_t>(number)],
+                 [&](std::size_t ray, std::span<const Interval> material) {
+                   std::ranges::copy(material, family.intervals.begin() +
+                                                   static_cast<std::ptrdiff_t>(family.first[ray]));
+                 });
   });
-  return family;
 }
 
 Result<TriDexel> TriDexel::sample(SolidView solid, const BoundingBox& box, Mm pitch) {
@@ -136,9 +170,13 @@ Result<TriDexel> TriDexel::sample(SolidView solid, const BoundingBox& box, Mm pi
     return too_fine(box, pitch.value);
   }
   TriDexel dexels(DexelGrid::over(box, pitch.value));
-  for (int axis = 0; axis < 3; ++axis) {
-    dexels.families_[static_cast<std::size_t>(axis)] = sample_family(solid, dexels.grid_, axis);
-  }
+  for (int axis = 0; axis < 3; ++axis) dexels.sample_family(solid, axis, {});
+  return dexels;
+}
+
+TriDexel TriDexel::sampled_again(SolidView solid, const ReachedRays& reached) const {
+  TriDexel dexels(grid_);
+  for (int axis = 0; axis < 3; ++axis) dexels.sample_family(solid, axis, {this, &reached});
   return dexels;
 }
 

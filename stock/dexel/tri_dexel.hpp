@@ -12,7 +12,7 @@
 //            bodies (tests/stock/tri_dexel_test.cpp), at order 1 for faces parallel to the rays,
 //            where a whole layer of rays hits or misses at once: the volume of the surface mesh is
 //            the better number
-// Threads  : sample() runs on oneTBB; the same bits for any number of threads
+// Threads  : sample() and sampled_again() run on oneTBB; the same bits for any number of threads
 #pragma once
 
 #include <array>
@@ -46,11 +46,17 @@ struct DexelGrid {
   [[nodiscard]] std::int64_t rays() const;
 };
 
+class ReachedRays;
+
 class TriDexel {
  public:
   static constexpr std::int64_t kMaxRays = 200'000'000;  // about 2 GB of empty rays
 
   [[nodiscard]] static Result<TriDexel> sample(SolidView solid, const BoundingBox& box, Mm pitch);
+
+  // Of a solid that differs from the one sampled only along rays that were reached: bit for bit
+  // what sample() finds of it.
+  [[nodiscard]] TriDexel sampled_again(SolidView solid, const ReachedRays& reached) const;
 
   [[nodiscard]] const DexelGrid& grid() const { return grid_; }
   // Material along grid().ray(axis, u, v).
@@ -66,8 +72,13 @@ class TriDexel {
     std::vector<std::size_t> first;  // intervals of ray r: [first[r], first[r + 1])
     std::vector<Interval> intervals;
   };
+  // What is known of the rays: all of it but where they were reached.
+  struct Known {
+    const TriDexel* dexels = nullptr;
+    const ReachedRays* reached = nullptr;
+  };
   explicit TriDexel(const DexelGrid& grid) : grid_(grid) {}
-  static Family sample_family(SolidView solid, const DexelGrid& grid, int axis);
+  void sample_family(SolidView solid, int axis, const Known& known);
 
   DexelGrid grid_;
   std::array<Family, 3> families_;

@@ -57,8 +57,11 @@ struct SurfaceMesh {
 [[nodiscard]] Result<SurfaceMesh> extract_surface(SolidView solid, const BoundingBox& box,
                                                   Mm pitch);
 
+// mm^3, by the divergence theorem; means the enclosed one if the mesh is closed.
+[[nodiscard]] double enclosed_volume(const SurfaceMesh& mesh);
+
 struct MeshMeasure {
-  double volume = 0.0;     // mm^3, by the divergence theorem; means the enclosed one if closed
+  double volume = 0.0;     // mm^3, as enclosed_volume() has it
   double area = 0.0;       // mm^2
   bool is_closed = false;  // no boundary edges
   bool is_manifold =

@@ -172,7 +172,7 @@ void Cells::trace(std::size_t at, const Place& place) {
       if (side == 1 && alternates(cell, face)) {
         Place next = place;
         ++next[static_cast<std::size_t>(axis)];
-        owner = &cells_[find(next)];
+        owner = &cells_[index_of(next)];
       }
       add_arcs(sets, cell, face, (owner->joined >> axis & 1) != 0);
     }
@@ -204,7 +204,7 @@ void Cells::part_shared_cycles() {
           const Place place{i, j, cells_[c].level};
           Place below = place;
           --below[static_cast<std::size_t>(axis)];
-          const std::size_t other = find(below);
+          const std::size_t other = index_of(below);
           if (!one_piece(cells_[c], cell_face(axis, 0)) ||
               !one_piece(cells_[other], cell_face(axis, 1))) {
             continue;
@@ -226,12 +226,17 @@ void Cells::number_vertices() {
   assert(vertex_count_ <= std::numeric_limits<std::uint32_t>::max());
 }
 
-std::size_t Cells::find(const Place& place) const {
-  const auto cells = column(place[0], place[1]);
+const Cell* Cells::find(int i, int j, int level) const {
+  const auto cells = column(i, j);
   const auto found = std::partition_point(cells.begin(), cells.end(),
-                                          [&](const Cell& cell) { return cell.level < place[2]; });
-  assert(found != cells.end() && found->level == place[2]);
-  return first_[column_index(place[0], place[1])] + static_cast<std::size_t>(found - cells.begin());
+                                          [&](const Cell& cell) { return cell.level < level; });
+  return found != cells.end() && found->level == level ? &*found : nullptr;
+}
+
+std::size_t Cells::index_of(const Place& place) const {
+  const Cell* found = find(place[0], place[1], place[2]);
+  assert(found != nullptr);
+  return static_cast<std::size_t>(found - cells_.data());
 }
 
 std::span<const Cell> Cells::column(int i, int j) const {
@@ -239,6 +244,6 @@ std::span<const Cell> Cells::column(int i, int j) const {
   return std::span(cells_).subspan(from, first_[column_index(i, j) + 1] - from);
 }
 
-const Cell& Cells::at(int i, int j, int level) const { return cells_[find({i, j, level})]; }
+const Cell& Cells::at(int i, int j, int level) const { return cells_[index_of({i, j, level})]; }
 
 }  // namespace frustum::stock

@@ -52,12 +52,19 @@ struct Cell {
   [[nodiscard]] std::uint32_t piece(int edge) const { return pieces >> 2 * edge & 3U; }
 };
 
+// But for the numbers of their vertices.
+[[nodiscard]] inline bool are_alike(const Cell& a, const Cell& b) {
+  return a.level == b.level && a.corners == b.corners && a.joined == b.joined &&
+         a.piece_count == b.piece_count && a.pieces == b.pieces;
+}
+
 class Cells {
  public:
   explicit Cells(const Crossings& crossings);
 
-  // Cells of column (i, j), by rising level; and the one at a level.
+  // Cells of column (i, j), by rising level; the one at a level, or null; the one that is there.
   [[nodiscard]] std::span<const Cell> column(int i, int j) const;
+  [[nodiscard]] const Cell* find(int i, int j, int level) const;
   [[nodiscard]] const Cell& at(int i, int j, int level) const;
   [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
 
@@ -67,7 +74,7 @@ class Cells {
     return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_x_) +
            static_cast<std::size_t>(i);
   }
-  [[nodiscard]] std::size_t find(const Place& place) const;
+  [[nodiscard]] std::size_t index_of(const Place& place) const;
   void find_cells(const Crossings& crossings);
   void choose_arcs(const Crossings& crossings);
   void trace(std::size_t cell, const Place& place);

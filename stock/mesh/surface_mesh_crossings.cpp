@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 
@@ -17,7 +18,15 @@ struct End {
   double s = 0.0;
   EndTag tag = -1;
   bool leaves = false;  // the material is before s
+  bool operator==(const End&) const = default;
 };
+
+bool are_same_bits(const Vec3& a, const Vec3& b) {
+  return std::memcmp(a.data(), b.data(), sizeof(Vec3)) == 0;
+}
+bool are_same_bits(const HermiteSample& a, const HermiteSample& b) {
+  return a.tag == b.tag && are_same_bits(a.point, b.point) && are_same_bits(a.normal, b.normal);
+}
 
 // Edges of a Z column: between the last node before a run of inside nodes and its first, and at its
 // other end. Intervals without a node in between run on.
@@ -130,16 +139,23 @@ bool inside_along(std::span<const Interval> material, double s) {
   return piece != material.end() && piece->lo <= s;
 }
 
-HermiteSample sample_of(SolidView solid, const TriDexel& dexels, int axis, const Node& node,
-                        bool leaves) {
+// The end on an edge from the node, on the ray that the edge is of.
+std::optional<End> end_on(const TriDexel& dexels, int axis, const Node& node, bool leaves) {
   // Rays of two directions through a node see it on different sides only within their accuracy of
   // 1 nm; a grazing ray segments that. Ends this little beyond the edge are taken as on it.
   constexpr double kRounding = 1e-6;  // mm
   const double pitch = dexels.grid().pitch;
   const double lo = pitch * node[static_cast<std::size_t>(axis)];
+  return end_between(material_through(dexels, axis, node), lo - kRounding, lo + pitch + kRounding,
+                     leaves);
+}
+
+HermiteSample sample_of(SolidView solid, const TriDexel& dexels, int axis, const Node& node,
+                        const std::optional<End>& end, bool leaves) {
+  const double pitch = dexels.grid().pitch;
+  const double lo = pitch * node[static_cast<std::size_t>(axis)];
   const double hi = lo + pitch;
-  const std::span<const Interval> material = material_through(dexels, axis, node);
-  if (auto end = end_between(material, lo - kRounding, hi + kRounding, leaves)) {
+  if (end) {
     const Ray ray = ray_through(dexels.grid(), axis, node);
     HermiteSample found = surface_at(solid, ray, *end);
     found.point = ray.at(std::clamp(end->s, lo, hi));
@@ -147,16 +163,18 @@ HermiteSample sample_of(SolidView solid, const TriDexel& dexels, int axis, const
   }
   // The disputed node is the one that this ray puts on the other side.
   Node disputed = node;
-  if (inside_along(material, lo) == leaves) ++disputed[static_cast<std::size_t>(axis)];
+  if (inside_along(material_through(dexels, axis, node), lo) == leaves)
+    ++disputed[static_cast<std::size_t>(axis)];
   return nearest_end(solid, dexels, disputed, axis, leaves);
 }
 
 }  // namespace
 
-Crossings::Crossings(SolidView solid, const TriDexel& dexels) : grid_(dexels.grid()) {
+Crossings::Crossings(SolidView solid, const TriDexel& dexels, const Known& known)
+    : grid_(dexels.grid()) {
   for (const int axis : {2, 0, 1}) {  // Z first: it decides what is inside
     find_edges(dexels, axis);
-    sample_edges(solid, dexels, axis);
+    sample_edges(solid, dexels, axis, known);
   }
 }
 
@@ -181,14 +199,29 @@ void Crossings::find_edges(const TriDexel& dexels, int axis) {
   for (const auto& row : rows) family.edges.insert(family.edges.end(), row.begin(), row.end());
 }
 
-void Crossings::sample_edges(SolidView solid, const TriDexel& dexels, int axis) {
+void Crossings::sample_edges(SolidView solid, const TriDexel& dexels, int axis,
+                             const Known& known) {
   Family& family = families_[static_cast<std::size_t>(axis)];
   family.samples.resize(family.edges.size());
+  family.known.assign(family.edges.size(), 0);
+  const auto sample_edge = [&](std::size_t e, const Node& node, bool leaves) {
+    const auto end = end_on(dexels, axis, node, leaves);
+    const auto before = known.crossings != nullptr
+                            ? known.crossings->find(axis, node[0], node[1], node[2])
+                            : std::nullopt;
+    if (before && known.crossings->lower_inside(*before, axis) == leaves) {
+      const HermiteSample& sample = known.crossings->sample(*before, axis);
+      const bool ends_so = end && end == end_on(*known.dexels, axis, node, leaves);
+      family.samples[e] = ends_so ? sample : sample_of(solid, dexels, axis, node, end, leaves);
+      family.known[e] = ends_so || are_same_bits(family.samples[e], sample) ? 1 : 0;
+    } else {
+      family.samples[e] = sample_of(solid, dexels, axis, node, end, leaves);
+    }
+  };
   tbb::parallel_for(0, grid_.nodes[1], [&](int j) {
     for (int i = 0; i < grid_.nodes[0]; ++i) {
       for (std::size_t e = first(axis, i, j); e < family.first[column(i, j) + 1]; ++e) {
-        const CrossingEdge& edge = family.edges[e];
-        family.samples[e] = sample_of(solid, dexels, axis, {i, j, edge.level}, edge.lower_inside);
+        sample_edge(e, {i, j, family.edges[e].level}, family.edges[e].lower_inside);
       }
     }
   });

@@ -35,13 +35,27 @@ struct CrossingEdge {
 
 class Crossings {
  public:
-  Crossings(SolidView solid, const TriDexel& dexels);
+  Crossings(SolidView solid, const TriDexel& dexels) : Crossings(solid, dexels, Known{}) {}
+  // The same, where much is known of the solid: where a ray ends as it did, its point and normal
+  // are those found then. Both of one grid.
+  struct Known {
+    const Crossings* crossings = nullptr;
+    const TriDexel* dexels = nullptr;
+  };
+  Crossings(SolidView solid, const TriDexel& dexels, const Known& known);
 
   [[nodiscard]] const DexelGrid& grid() const { return grid_; }
   // Edges of one axis that start in column (i, j), by rising level.
   [[nodiscard]] std::span<const CrossingEdge> edges(int axis, int i, int j) const;
   [[nodiscard]] const HermiteSample& sample(std::size_t edge, int axis) const {
     return families_[static_cast<std::size_t>(axis)].samples[edge];
+  }
+  [[nodiscard]] bool lower_inside(std::size_t edge, int axis) const {
+    return families_[static_cast<std::size_t>(axis)].edges[edge].lower_inside;
+  }
+  // Whether the sample is, bit for bit, what was known of that edge.
+  [[nodiscard]] bool is_known(std::size_t edge, int axis) const {
+    return families_[static_cast<std::size_t>(axis)].known[edge] != 0;
   }
   // Number, within its axis, of the first edge of column (i, j), and of the edge at (i, j, level).
   [[nodiscard]] std::size_t first(int axis, int i, int j) const;
@@ -56,13 +70,14 @@ class Crossings {
     std::vector<std::size_t> first;
     std::vector<CrossingEdge> edges;
     std::vector<HermiteSample> samples;
+    std::vector<std::uint8_t> known;
   };
   [[nodiscard]] std::size_t column(int i, int j) const {
     return static_cast<std::size_t>(j) * static_cast<std::size_t>(grid_.nodes[0]) +
            static_cast<std::size_t>(i);
   }
   void find_edges(const TriDexel& dexels, int axis);
-  void sample_edges(SolidView solid, const TriDexel& dexels, int axis);
+  void sample_edges(SolidView solid, const TriDexel& dexels, int axis, const Known& known);
 
   DexelGrid grid_;
   std::array<Family, 3> families_;

@@ -44,13 +44,26 @@ std::size_t count_components(const OpenMesh3& mesh) {
   return components;
 }
 
+// A point of the mesh: about it a part far from the origin loses no digits.
+Vec3 point_of(const SurfaceMesh& mesh) {
+  return mesh.vertices.empty() ? Vec3(Vec3::Zero()) : mesh.vertices.front();
+}
+
 }  // namespace
 
+double enclosed_volume(const SurfaceMesh& mesh) {
+  const Vec3 about = point_of(mesh);
+  double volume = 0.0;
+  for (const auto& [ia, ib, ic] : mesh.triangles) {
+    const Vec3 b = mesh.vertices[ib] - about, c = mesh.vertices[ic] - about;
+    volume += (mesh.vertices[ia] - about).dot(b.cross(c)) / 6.0;
+  }
+  return volume;
+}
+
 MeshMeasure measure(const SurfaceMesh& mesh) {
-  MeshMeasure found;
-  // The volume is taken about a point of the mesh, so that a part far from the origin loses no
-  // digits.
-  const Vec3 about = mesh.vertices.empty() ? Vec3(Vec3::Zero()) : mesh.vertices.front();
+  MeshMeasure found{.volume = enclosed_volume(mesh)};
+  const Vec3 about = point_of(mesh);
   for (const auto& [ia, ib, ic] : mesh.triangles) {
     const Vec3 a = mesh.vertices[ia] - about;
     const Vec3 b = mesh.vertices[ib] - about;
@@ -58,7 +71,6 @@ MeshMeasure measure(const SurfaceMesh& mesh) {
     const double twice_area = (b - a).cross(c - a).norm();
     const double longest =
         std::sqrt(std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
-    found.volume += a.dot(b.cross(c)) / 6.0;
     found.area += twice_area / 2.0;
     // Height over the longest side, relative to it. A millionth: what single precision files keep.
     if (!(twice_area > 1e-6 * longest * longest)) ++found.degenerate_triangles;
