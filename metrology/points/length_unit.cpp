@@ -27,6 +27,7 @@ constexpr std::array kUnits{
     UnitRow{"um", "um", 1e-3},
     UnitRow{"\u00b5m", "um", 1e-3},  // micro sign
     UnitRow{"\u03bcm", "um", 1e-3},  // Greek mu
+    UnitRow{"\xb5m", "um", 1e-3},    // micro sign of Windows-1252, which UTF-8 has not
     UnitRow{"micron", "um", 1e-3},
     UnitRow{"microns", "um", 1e-3},
     UnitRow{"micrometre", "um", 1e-3},
@@ -100,6 +101,12 @@ ApproachDirection approach_direction_of(std::string_view text) {
   const bool is_coordinate = all.size() > 2 && all[0] >= 'x' && all[0] <= 'z' && all[1] == '_';
   if (is_coordinate && length_unit(all.substr(2))) return {all.substr(0, 1), all.substr(2)};
   return {all, {}};
+}
+
+Diagnostic unlike_units(const LengthUnit& stated, const LengthUnit& asked) {
+  return error("length-unit"_id,
+               fmt::format("the file states the unit {}, --unit says {}", stated.name, asked.name),
+               "leave --unit out, or correct the file");
 }
 
 std::optional<LengthUnit> likely_unit(double size, double expected) {

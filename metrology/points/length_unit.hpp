@@ -39,6 +39,9 @@ struct ApproachDirection {
 };
 [[nodiscard]] ApproachDirection approach_direction_of(std::string_view text);
 
+// What a file states against what the caller says.
+[[nodiscard]] Diagnostic unlike_units(const LengthUnit& stated, const LengthUnit& asked);
+
 // The unit that numbers seem to be in when they span `size` where `expected` mm were planned;
 // nothing when mm will do, or no unit would.
 [[nodiscard]] std::optional<LengthUnit> likely_unit(double size, double expected);

@@ -38,7 +38,7 @@ std::vector<Word> split(std::string_view line, char separator) {
   const auto ends_word = [&](char c) { return by_blanks ? is_blank(c) : c == separator; };
   std::size_t at = 0;
   while (at <= line.size()) {
-    while (at < line.size() && is_blank(line[at])) ++at;
+    while (at < line.size() && is_blank(line[at]) && (by_blanks || !ends_word(line[at]))) ++at;
     if (by_blanks && at == line.size()) break;
     const std::size_t first = at;
     std::string text;
@@ -69,6 +69,10 @@ std::vector<Word> words_of(std::string_view line) {
   return split(line, has(line, ';') ? ';' : has(line, ',') ? ',' : ' ');
 }
 
+std::vector<Word> words_between(std::string_view line, char separator) {
+  return split(line, separator);
+}
+
 std::optional<double> number_in(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0.0;
@@ -77,19 +81,24 @@ std::optional<double> number_in(std::string_view text) {
   return value;
 }
 
+std::optional<double> comma_number_in(std::string_view text) {
+  const auto comma = text.find(',');
+  if (comma == std::string_view::npos || comma == 0 || comma + 1 == text.size()) return {};
+  const auto is_digit = [&](std::size_t at) { return text[at] >= '0' && text[at] <= '9'; };
+  if (!is_digit(comma - 1) || !is_digit(comma + 1)) return std::nullopt;
+  if (text.find('.') != std::string_view::npos) return std::nullopt;
+  std::string with_point(text);
+  with_point[comma] = '.';
+  return number_in(with_point);
+}
+
 std::optional<Word> decimal_comma(std::string_view line) {
   std::vector<Word> words = split(line, has(line, ';') ? ';' : ' ');
   if (words.size() < 2) return std::nullopt;  // "1,2": as good as two numbers
   for (Word& word : words) {
     std::string text = word.text;
     if (text.ends_with(',')) text.pop_back();  // "1,5, 2,5, 3,5"
-    const auto comma = text.find(',');
-    if (comma == std::string::npos || comma == 0 || comma + 1 == text.size()) continue;
-    const auto is_digit = [&](std::size_t at) { return text[at] >= '0' && text[at] <= '9'; };
-    if (!is_digit(comma - 1) || !is_digit(comma + 1)) continue;
-    std::string with_point = text;
-    with_point[comma] = '.';
-    if (number_in(with_point)) return Word{std::move(text), word.column};
+    if (comma_number_in(text)) return Word{std::move(text), word.column};
   }
   return std::nullopt;
 }

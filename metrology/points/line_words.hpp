@@ -26,9 +26,13 @@ struct Word {
 [[nodiscard]] std::pair<std::string_view, std::string_view> split_comment(std::string_view line);
 
 [[nodiscard]] std::vector<Word> words_of(std::string_view line);
+// The fields between semicolons or tabs; those between tabs may be empty.
+[[nodiscard]] std::vector<Word> words_between(std::string_view line, char separator);
 
 // All of the text, with a sign or without.
 [[nodiscard]] std::optional<double> number_in(std::string_view text);
+// The same of digits with one comma among them: "-1,5" and "1,5e3". An integer has none.
+[[nodiscard]] std::optional<double> comma_number_in(std::string_view text);
 
 // The first number of the line that is written with a decimal comma, where semicolons or blanks
 // separate: "1,5" in "1,5;2;3" and in "1,5 2 3".

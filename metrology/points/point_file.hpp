@@ -1,19 +1,21 @@
 // Files of measured points: CSV, columns separated by blanks (XYZ), PLY, QIF.
 //
 // Text: "x y z" or "x,y,z" lines; an optional first line that holds only the number of points; an
-//       optional header such as feature,section,x,y,z (names in any order; feature, section, weight
-//       and the direction i,j,k may be left out; nominal_x, nominal_y, nominal_z and deviation, as
-//       `frustum run` writes them, are not used); without a header "x y z i j k" too, where i j k
-//       has length 1. Directions are not used. Names with a comma in quotes as RFC 4180 says, a '
-//       before = + - @ is none of the name (csv_field.hpp); comments from # to the end of the line;
-//       blank lines. Lines end with LF, CR LF or CR; UTF-8 or UTF-16. PLY (by the extension .ply):
-//       the vertices, text or binary. QIF (.qif): the measured points of each feature.
+//       optional header such as feature,section,x,y,z (names in any order, English or German:
+//       column_heading.hpp; all but x, y and z may be left out; nominal and point columns are not
+//       used); without a header "x y z i j k" too, where i j k has length 1. Directions are not
+//       used. Decimal commas where semicolons or tabs separate the columns (table_form.hpp). Names
+//       with a comma in quotes as RFC 4180 says, a ' before = + - @ is none of the name
+//       (csv_field.hpp); comments from # to the end of the line; blank lines. Lines end with LF,
+//       CR LF or CR; UTF-8 or UTF-16. XYZIJK: files of PC-DMIS (pcdmis_line.hpp). PLY (by the
+//       extension .ply): the vertices, text or binary. QIF (.qif): the measured points of each
+//       feature.
 // Units  : mm, unless the file says otherwise: a comment "# unit: inch" before the first point, a
 //          heading "x [inch]" at each of x, y and z, or the caller who knows. Points come out in mm
-// Errors : wrong number of columns, text where a number belongs, a decimal comma, NaN or infinity,
-//          a count that does not fit, an unknown unit, two that contradict each other (the caller's
-//          counts) or one that holds for some coordinates only, an empty file, a directory, an
-//          encoding that is not read: each with file, line and column
+// Errors : wrong number of columns, text where a number belongs, decimal commas among points, NaN
+//          or infinity, a count that does not fit, an unknown unit, two that contradict each other
+//          (the caller's counts) or one that holds for some coordinates only, an empty file, a
+//          directory, an encoding that is not read: each with file, line and column
 #pragma once
 
 #include <filesystem>

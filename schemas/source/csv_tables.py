@@ -53,13 +53,15 @@ _AXES = repeated("AXIS", "[XYZABC]", "Commanded position of the axis, mm; deg of
 _AXES_DEG = repeated("AXIS_deg", "[ABC]_deg", "Position of the rotary axis", unit="deg")
 
 POINTS = Table(
-    "points", "1.0", "Measured points",
+    "points", "1.1", "Measured points",
     "Points of a CMM, read by measure, fit and identify, and written by run and motion probe. Read with columns in any "
-    "order, and without a header as x y z or x y z i j k", [
+    "order, under German and other names too (docs/exchange.md), and without a header as x y z or x y z i j k", [
         text("feature", "Of the plan", False), whole("section", "Of the feature; the first is 0", False), *_XYZ,
         *several(["nominal_x", "nominal_y", "nominal_z"], "Nearest place on the planned surface", "mm", False),
         *several("ijk", "Planned normal there, out of the material", "", False),
         column("deviation", "Along it", unit="mm", needed=False),
+        *several(["deviation_x", "deviation_y", "deviation_z"], "Not read: of the coordinate from its nominal", "mm", False),
+        text("point", "Not read: number or name of the point", False),
         column("geometric", "What the tool leaves at a point of a ruled feature", unit="mm", needed=False),
         column("weight", "For fit only: of the square", needed=False)],
     "points.csv")

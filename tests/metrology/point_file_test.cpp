@@ -68,14 +68,13 @@ TEST(PointFile, NamesLineAndColumnOfEveryMistake) {
 }
 
 TEST(PointFile, Fault2_60_NamesADecimalComma) {
-  for (const char* line : {"1,5 2,25 3", "1,5\t2\t3", "1,5;2,5;3,5", "1;2;3,5", "1,5, 2,5, 3,5",
-                           "-1,5e3;2;3", "1 2 3\n4,5 6 7", "x;y;z\n1,5;2;3"}) {
+  for (const char* line : {"1,5 2,25 3", "1,5, 2,5, 3,5", "1 2 3\n4,5 6 7", "1 2 3\n4,5;6;7"}) {
     EXPECT_NE(point_file_complaint(line).find("is written with a decimal comma"), std::string::npos)
         << line << ": " << point_file_complaint(line);
   }
-  EXPECT_EQ(point_file_complaint("feature;x;y;z\nA;1;2,5;3\n"),
-            "p.csv:2:5: error: '2,5' is written with a decimal comma (hint: write numbers with a "
-            "decimal point: a comma separates columns)");
+  EXPECT_EQ(point_file_complaint("1 2 3\n1 2,5 3\n"),
+            "p.csv:2:3: error: '2,5' is written with a decimal comma (hint: write a decimal point, "
+            "or separate all columns by semicolons or by tabs: then decimal commas are read)");
 }
 
 TEST(PointFile, Fault2_60_ReadsUtf16AndLinesThatEndWithCr) {
