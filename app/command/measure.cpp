@@ -6,6 +6,7 @@
 #include "app/command/cmm_option.hpp"
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
+#include "app/command/option/style_option.hpp"
 #include "app/command/unit_option.hpp"
 #include "app/job/export_request.hpp"
 #include "app/job/job.hpp"
@@ -13,11 +14,15 @@
 #include "app/job/job_report.hpp"
 #include "app/job/trial_run.hpp"
 #include "app/view/console.hpp"
+#include "core/file_set.hpp"
 #include "core/whole_file.hpp"
 #include "metrology/plan/point_scale.hpp"
 #include "metrology/points/point_file.hpp"
 #include "metrology/uncertainty/point_uncertainty.hpp"
+#include "report/exchange/json_report.hpp"
+#include "report/exchange/points_csv.hpp"
 #include "report/measuring_statement.hpp"
+#include "report/page/html_report.hpp"
 #include "trials/mesh_probe.hpp"
 
 namespace frustum::app {
@@ -33,6 +38,8 @@ struct MeasureOptions : ResultOptions {
   std::string points{};
   std::string mesh{};
   std::string unit{};
+  std::string out{};
+  StyleWords style{};
   CmmWords cmm{};
   JobOverrides overrides{};
   bool ball_centres = false;
@@ -42,10 +49,34 @@ int conflicting(const MeasureOptions& options, std::string message, std::string 
   return refuse(error("conflicting-options"_id, std::move(message), std::move(hint)), options);
 }
 
-int write_and_show(report::RunReport& report, const InspectionPlan& plan,
+// The files of --out; nothing where none are asked for.
+using OutSet = std::optional<FileSet>;
+
+Result<OutSet> out_set(const MeasureOptions& options) {
+  if (options.out.empty()) return OutSet{};
+  auto set = FileSet::open(options.out, {"result.json", "points.csv", "report.html"});
+  if (!set) return set.error();
+  return OutSet{*std::move(set)};
+}
+
+Diagnostics write_files(OutSet& set, report::RunReport& report, const InspectionPlan& plan,
+                        const std::vector<std::filesystem::path>& exports) {
+  if (!set) return write_exports(exports, report, plan);
+  const auto add = [&](const char* name, std::string bytes) {
+    report.files.push_back(set->add(name, std::move(bytes)).string());
+  };
+  add("result.json", report::json_report(report));
+  add("points.csv", report::points_csv(report.measurement, plan));
+  add("report.html", report::html_report(report));
+  if (auto faults = write_exports(exports, report, plan, &*set); !faults.empty()) return faults;
+  const auto written = set->write();
+  return written ? Diagnostics{} : written.error();
+}
+
+int write_and_show(OutSet& set, report::RunReport& report, const InspectionPlan& plan,
                    const std::vector<std::filesystem::path>& exports,
                    const MeasureOptions& options) {
-  const Diagnostics faults = write_exports(exports, report, plan);
+  const Diagnostics faults = write_files(set, report, plan, exports);
   return faults.empty() ? show_result(report, options) : refuse(faults, options);
 }
 
@@ -54,6 +85,8 @@ int measure_job(const MeasureOptions& options) {
   if (!job) return refuse(job.error(), options);
   const auto exports = checked_exports(options.exports, job->exports);
   if (!exports) return refuse(exports.error(), options);
+  auto set = out_set(options);
+  if (!set) return refuse(set.error(), options);
   auto evidence = evidence_of(*job);
   if (!evidence) return refuse(evidence.error(), options);
   TrialRun run(progress_style(options));
@@ -62,9 +95,13 @@ int measure_job(const MeasureOptions& options) {
     write_failed_exports(*exports, trial.error(), job->piece.plan);
     return refuse(trial.error(), options);
   }
+  const report::ReportStyle style = style_of(options.style);
+  evidence->measuring_shown = report::measuring_statement(
+      job->piece.plan, job->cmm, report::PointSource::virtual_cmm, report::Wording(style));
   report::RunReport report = report_of(*job, *trial, *std::move(evidence));
+  report.style = style;
   report.timings = run.timings();
-  return write_and_show(report, job->piece.plan, *exports, options);
+  return write_and_show(*set, report, job->piece.plan, *exports, options);
 }
 
 // What every U of points or a mesh lacks, as nothing else is known of the machine that measured
@@ -138,8 +175,10 @@ Result<report::Evidence> evidence_of(const MeasureOptions& options, const Inspec
   report::Evidence evidence;
   evidence.header = plan.header;
   const bool is_probed = !options.mesh.empty();
-  evidence.measuring = report::measuring_statement(
-      plan, cmm, is_probed ? report::PointSource::mesh : report::PointSource::measured_points);
+  const auto source = is_probed ? report::PointSource::mesh : report::PointSource::measured_points;
+  evidence.measuring = report::measuring_statement(plan, cmm, source);
+  evidence.measuring_shown =
+      report::measuring_statement(plan, cmm, source, report::Wording(style_of(options.style)));
   evidence.files.push_back(report::hashed_file("plan", options.plan, read.plan));
   if (!is_probed) {
     evidence.files.push_back(report::hashed_file("points", options.points, read.points));
@@ -166,6 +205,8 @@ int measure_by_plan(const MeasureOptions& options) {
   if (!cmm) return refuse(cmm.error(), options);
   const auto exports = checked_exports(options.exports);
   if (!exports) return refuse(exports.error(), options);
+  auto set = out_set(options);
+  if (!set) return refuse(set.error(), options);
   auto measurement =
       with_progress(options, "measure", [&](report::Progress&) -> Result<metrology::Measurement> {
         if (!options.mesh.empty()) return probed_mesh(options, *plan, *unit, *cmm);
@@ -188,9 +229,10 @@ int measure_by_plan(const MeasureOptions& options) {
   report.title =
       plan->title.empty() ? std::filesystem::path(source).filename().string() : plan->title;
   report.version = FRUSTUM_VERSION;
+  report.style = style_of(options.style);
   report.evidence = *std::move(evidence);
   report.measurement = *std::move(measurement);
-  return write_and_show(report, *plan, *exports, options);
+  return write_and_show(*set, report, *plan, *exports, options);
 }
 
 int measure(const MeasureOptions& options) {
@@ -240,6 +282,8 @@ void add_measure(Command& program) {
                "The points are centres of the probe ball, not surface points");
   add_error_options(command, options->overrides.errors);
   command.option("--tool-radius-error", options->overrides.tool_radius_error, "With unit");
+  command.option("--out", options->out, "Folder for report.html, result.json and points.csv");
+  add_style_options(command, options->style);
   add_result_options(command, *options);
   command.footer(
       "Example: frustum measure --plan cone.plan.toml --points out/points.csv --export part.qif "

@@ -5,6 +5,7 @@
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
+#include "app/command/option/style_option.hpp"
 #include "app/motion/probe_motion.hpp"
 #include "app/motion/test_file.hpp"
 #include "app/motion/trace_motion.hpp"
@@ -90,10 +91,18 @@ void add_run_options(Command& command, MotionWords& words, const char* feed) {
 }
 constexpr const char* kFeedOfTheTip = "mm/min of the tip, for --dynamics";
 
+std::shared_ptr<StyleWords> style_option(Command& command) {
+  auto style = std::make_shared<StyleWords>();
+  add_style_options(command, *style);
+  return style;
+}
+
 // A test whose words become an answer, and a file by which it can be run again.
 template <typename Words>
 void runs_test(Command& command, const std::shared_ptr<Words>& words) {
-  command.runs([words] {
+  const auto style = style_option(command);
+  command.runs([words, style] {
+    words->style = style_of(*style);
     auto answer = with_progress(*words, "motion", [&](report::Progress& progress) {
       words->progress = &progress;
       auto found = answer_of(TestWords(*words));
@@ -310,7 +319,9 @@ void add_probe(Command& tests) {
   command.footer(
       "The ball and the ways of approach are those of the plan.\n"
       "Example: frustum motion probe examples/cone/job.toml --noise 0.35um --out probed");
-  command.computes([words] {
+  const auto style = style_option(command);
+  command.computes([words, style] {
+    words->style = style_of(*style);
     auto answer =
         with_progress(*words, "probe", [&](report::Progress&) { return probe_answer(*words); });
     return show_motion(std::move(answer), *words, words->out);
@@ -335,11 +346,13 @@ void add_motion_run(Command& tests) {
   command.option("--out", words->out, "Folder for motion.html, motion.json and trace.csv");
   add_answer_options(command, *words);
   command.footer("Example: frustum motion run ballbar/test.toml --error EC0Y=30urad");
-  command.runs([words] {
+  const auto style = style_option(command);
+  command.runs([words, style] {
     auto test = read_test_file(words->file);
     if (!test) return refuse(test.error(), *words);
     MotionWords& common = common_words(test->words);
     common.errors = words->errors;
+    common.style = style_of(*style);
     if (words->servo_lag) common.nc.servo_lag = true;
     auto answer = with_progress(*words, "motion", [&](report::Progress& progress) {
       common.progress = &progress;
@@ -387,7 +400,11 @@ void add_trace(Command& tests) {
   command.option("--out", words->out, "Folder for motion.html and motion.json");
   add_answer_options(command, *words);
   command.footer("Example: frustum motion trace measured.csv --plane XY --length 150");
-  command.runs([words] { return show_motion(trace_answer(*words), *words, words->out); });
+  const auto style = style_option(command);
+  command.runs([words, style] {
+    words->style = style_of(*style);
+    return show_motion(trace_answer(*words), *words, words->out);
+  });
 }
 
 void add_vectors(Command& tests) {
@@ -402,7 +419,11 @@ void add_vectors(Command& tests) {
   add_answer_options(command, *words);
   command.footer(
       "Example: frustum motion vectors --machine zx-yac --error EX0C=10um --error EB0C=20urad");
-  command.runs([words] { return show_motion(vectors_answer(*words), *words, words->out); });
+  const auto style = style_option(command);
+  command.runs([words, style] {
+    words->style = style_of(*style);
+    return show_motion(vectors_answer(*words), *words, words->out);
+  });
 }
 
 void add_names(Command& tests) {

@@ -12,6 +12,7 @@
 
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
+#include "app/command/option/style_option.hpp"
 #include "app/study/study_json.hpp"
 #include "app/study/study_report.hpp"
 #include "app/study/study_run.hpp"
@@ -35,6 +36,7 @@ struct StudyOptions : AnswerOptions {
   std::string part{};
   std::vector<std::string> merge{};
   std::string csv{};
+  StyleWords style{};
 };
 
 // More than this is said before it starts.
@@ -127,7 +129,12 @@ class StudyCommand {
  public:
   StudyCommand(const StudyOptions& options, const StudyFile& study, const StudyModel& model,
                const studies::Ranks& ranks)
-      : options_(options), study_(study), model_(model), ranks_(ranks), started_(now()) {}
+      : options_(options),
+        study_(study),
+        model_(model),
+        ranks_(ranks),
+        words_(style_of(options.style)),
+        started_(now()) {}
 
   // The exit code of this rank.
   int run() {
@@ -221,7 +228,7 @@ class StudyCommand {
     const std::string json = study_json(*result);
     set.add("result.json", json);
     set.add("run.json", run_json(end, ranks_, now() - started_));
-    set.add("report.html", study_report(study_, model_, *result, *columns));
+    set.add("report.html", study_report(study_, model_, *result, *columns, words_));
     if (const auto written = set.write(); !written) return refuse(written.error(), options_);
     if (!options_.csv.empty()) {
       const auto written = write_samples_csv(run.folder(), end.samples, options_.csv);
@@ -230,7 +237,7 @@ class StudyCommand {
     if (options_.json) {
       std::cout << json;
     } else if (!options_.quiet) {
-      std::cout << study_text(*result);
+      std::cout << study_text(*result, words_);
     }
     for (const std::string& what : result->not_reached) {
       if (!options_.quiet) std::cerr << "frustum study: not reached: " << what << '\n';
@@ -242,6 +249,7 @@ class StudyCommand {
   const StudyFile& study_;
   const StudyModel& model_;
   const studies::Ranks& ranks_;
+  report::Wording words_;
   double started_;
   double drawing_since_ = 0.0;
 };
@@ -294,6 +302,7 @@ void add_study(Command& program) {
                  "NAME=VALUE, repeated; overrides the study, for example --error EB0C=30urad");
   command.option("--errors", o->words.errors.files,
                  "Error file, or the name of a shipped one; repeated; overrides the study");
+  add_style_options(command, o->style);
   add_answer_options(command, *o);
   command.footer(
       "Exit code 1: fewer parts conform than at_least says, or a stop rule is not reached; 130: "

@@ -24,28 +24,31 @@ namespace {
 constexpr std::size_t kMostRows = 40;
 
 std::string vectors_text(const std::vector<instruments::TestPose>& poses,
-                         const std::vector<Vec3>& vectors, const kinematics::Machine& machine) {
-  std::vector<std::string> headings{"pose"};
+                         const std::vector<Vec3>& vectors, const kinematics::Machine& machine,
+                         const report::Wording& words) {
+  std::vector<std::string> headings{words("pose")};
   std::vector<kinematics::AxisLetter> rotary;
   for (const auto letter : kinematics::kRotaryAxes) {
     if (machine.joint(letter) == nullptr) continue;
     rotary.push_back(letter);
     headings.push_back(fmt::format("{} deg", to_char(letter)));
   }
-  for (const char* axis : {"x um", "y um", "z um"}) headings.emplace_back(axis);
+  for (const char* axis : {"x ", "y ", "z "}) {
+    headings.push_back(axis + std::string(words.unit("um")));
+  }
   TextTable table(headings);
   for (std::size_t i = 0; i < std::min(vectors.size(), kMostRows); ++i) {
     std::vector<std::string> cells{fmt::format("{}", i + 1)};
     for (const auto letter : rotary) {
-      cells.push_back(fmt::format("{:.3f}", poses[i].at.q[letter] * kDegPerRad));
+      cells.push_back(words.number(fmt::format("{:.3f}", poses[i].at.q[letter] * kDegPerRad)));
     }
     for (Eigen::Index k = 0; k < 3; ++k) {
-      cells.push_back(fixed_decimal(vectors[i][k] * kUmPerMm, 3));
+      cells.push_back(shown_um(vectors[i][k], words));
     }
     table.row(cells);
   }
   const std::size_t left = vectors.size() - std::min(vectors.size(), kMostRows);
-  return table.text() + (left > 0 ? fmt::format("{} more poses: --json\n", left) : "");
+  return table.text() + (left > 0 ? words("{0} more poses: --json", left) + "\n" : "");
 }
 
 // Arrows at the angle of the axis next to the table, a colour for each position of the other.
@@ -55,20 +58,25 @@ void draw_vectors(MotionAnswer& answer, const std::vector<instruments::TestPose>
   const bool has_c = machine.joint(AxisLetter::C) != nullptr;
   const AxisLetter round = has_c ? AxisLetter::C : AxisLetter::B;
   const AxisLetter tilt = machine.joint(AxisLetter::A) != nullptr ? AxisLetter::A : AxisLetter::B;
-  report::MotionTable table{.heading = "Displacements, frame of the table",
-                            .columns = {"pose", ">x um", ">y um", ">z um"}};
+  const report::Wording& words = answer.words;
+  const std::string um(words.unit("um"));
+  report::MotionTable table{.heading = words("Displacements, frame of the table"),
+                            .columns = {words("pose"), ">x " + um, ">y " + um, ">z " + um}};
   for (std::size_t i = 0; i < vectors.size(); ++i) {
-    const Vec3 um = vectors[i] * kUmPerMm;
-    const std::string name =
-        fmt::format("{} {:g}°", to_char(tilt), poses[i].at.q[tilt] * kDegPerRad);
+    const Vec3& d = vectors[i];
+    const auto drawn = [&](double mm) { return words.shown(mm * kUmPerMm, "um"); };
+    const auto turned = [&](AxisLetter letter) {
+      return fmt::format("{} {}°", to_char(letter),
+                         words.general(poses[i].at.q[letter] * kDegPerRad));
+    };
+    const std::string name = turned(tilt);
     auto series = std::ranges::find(answer.page.arrows, name, &report::ArrowSeries::name);
     if (series == answer.page.arrows.end()) {
       series = answer.page.arrows.insert(series, {name, {}});
     }
-    series->arrows.push_back({poses[i].at.q[round], um.x(), um.y()});
-    table.rows.push_back(
-        {fmt::format("{}, {} {:g}°", name, to_char(round), poses[i].at.q[round] * kDegPerRad),
-         fixed_decimal(um.x(), 3), fixed_decimal(um.y(), 3), fixed_decimal(um.z(), 3)});
+    series->arrows.push_back({poses[i].at.q[round], drawn(d.x()), drawn(d.y())});
+    table.rows.push_back({name + ", " + turned(round), shown_um(d.x(), words),
+                          shown_um(d.y(), words), shown_um(d.z(), words)});
   }
   answer.page.tables.push_back(std::move(table));
 }
@@ -148,7 +156,7 @@ Result<MotionAnswer> chase_answer(const ChaseWords& words) {
   }
   for (std::size_t i = 0; i < moved->size(); ++i) exact[i] += (*moved)[i];
   const auto vectors = instruments::shown(setup->instrument, std::move(exact), 0);
-  MotionAnswer answer = answer_of("chase", "R-test", *setup);
+  MotionAnswer answer = answer_of("chase", setup->words("R-test"), *setup);
   if (words.nc.run) add_program_run(answer, words.nc, difference);
   if (words.nc.written()) {
     const auto options = program_options(words.nc);
@@ -174,8 +182,10 @@ Result<MotionAnswer> chase_answer(const ChaseWords& words) {
   answer.document["evaluation"] = Document{{"rms_um", rms}};
   add_setup_found(answer, vectors);
   draw_vectors(answer, test->poses, vectors, setup->machine);
-  answer.text += vectors_text(test->poses, vectors, setup->machine);
-  answer.text += fmt::format("root mean square {:.3f} um, in the frame of the table\n", rms);
+  answer.text += vectors_text(test->poses, vectors, setup->machine, setup->words);
+  answer.text += setup->words("root mean square {0} {1}, in the frame of the table",
+                              shown_um(rms / kUmPerMm, setup->words), setup->words.unit("um")) +
+                 "\n";
   const auto errors = instruments::location_unknowns(setup->machine);
   const std::vector gains{instruments::displacement_gains(
       setup->machine, errors, instruments::thinned(*test, kPosesThatTell))};

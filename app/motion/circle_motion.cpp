@@ -125,7 +125,7 @@ Result<MotionAnswer> circle_answer(const CircleWords& words) {
     if (!taken) return taken.error();
     difference = *taken;
   }
-  MotionAnswer answer = answer_of("circle", "Circle in " + words.plane, *setup);
+  MotionAnswer answer = answer_of("circle", setup->words("Circle in {0}", words.plane), *setup);
   if (words.nc.run) add_program_run(answer, words.nc, difference);
   if (auto problem = add_circle_program(answer, words, *setup, *circle, ccw, traces))
     return *std::move(problem);

@@ -20,6 +20,7 @@ using instruments::kSignatureTerms;
 using instruments::RunValues;
 using instruments::Signature;
 using instruments::SignatureTerm;
+using report::Wording;
 
 double unit_of(SignatureTerm term) {
   return term == SignatureTerm::square ? kUradPerRad : kUmPerMm;
@@ -79,48 +80,63 @@ void add_signature(Document& doc, const Signature& s, const std::vector<Contribu
   doc["residual_rms"] = s.residual_rms * kUmPerMm;
 }
 
-std::string um_text(double mm) { return fixed_decimal(mm * kUmPerMm, 3); }
-
 // The same rows on a terminal and on the page.
-report::MotionTable values_table(const CircleValues& v) {
+report::MotionTable values_table(const CircleValues& v, const Wording& words) {
+  const auto um_text = [&](double mm) { return shown_um(mm, words); };
   report::MotionTable table{
-      .heading = "Values",
-      .columns = {"um", ">G least squares", ">G minimum zone", ">F largest", ">F smallest"}};
+      .heading = words("Values"),
+      .columns = {std::string(words.unit("um")), ">" + words("G least squares"),
+                  ">" + words("G minimum zone"), ">" + words("F largest"),
+                  ">" + words("F smallest")}};
   for (const auto* run : {&v.ccw, &v.cw}) {
     if (!*run) continue;
     const RunValues& r = **run;
-    table.rows.push_back({std::string(name_of(r.sense)), um_text(r.g_least_squares),
+    table.rows.push_back({words.word(name_of(r.sense)), um_text(r.g_least_squares),
                           um_text(r.g_minimum_zone), um_text(r.f_max), um_text(r.f_min)});
   }
   table.rows.push_back(
-      {"both", um_text(v.g_bi_least_squares), um_text(v.g_bi_minimum_zone), "", ""});
-  table.note = fmt::format("Mean radial deviation D {} um, centre {}, {} um.",
-                           um_text(v.d_mean_radial), um_text(v.both.x), um_text(v.both.y));
+      {words("both"), um_text(v.g_bi_least_squares), um_text(v.g_bi_minimum_zone), "", ""});
+  table.note =
+      words("Mean radial deviation D {0} {3}, centre {1}, {2} {3}.", um_text(v.d_mean_radial),
+            um_text(v.both.x), um_text(v.both.y), words.unit("um"));
   return table;
 }
 
-std::string term_name(SignatureTerm term, instruments::Plane plane) {
+std::string term_name(SignatureTerm term, instruments::Plane plane, const Wording& words) {
   const auto [first, second] = axes_of(plane);
-  if (term == SignatureTerm::square) return "square";
-  if (term == SignatureTerm::backlash_1) return fmt::format("backlash {}", to_char(first));
-  if (term == SignatureTerm::backlash_2) return fmt::format("backlash {}", to_char(second));
-  return std::string(text_of(term).name);
+  if (term == SignatureTerm::square) return words("square");
+  if (term == SignatureTerm::backlash_1) {
+    return words("backlash {0}", std::string(1, to_char(first)));
+  }
+  if (term == SignatureTerm::backlash_2) {
+    return words("backlash {0}", std::string(1, to_char(second)));
+  }
+  return words.word(text_of(term).name);
 }
 
-report::MotionTable signature_table(const Signature& s, instruments::Plane plane) {
-  report::MotionTable table{.heading = "Signature",
-                            .columns = {"term", ">value", ">sd", "unit", "what looks alike"}};
+// A term's value or standard deviation.
+std::string term_text(double value, SignatureTerm term, const Wording& words) {
+  if (term != SignatureTerm::square) return shown_um(value, words);
+  return words.number(fixed_decimal(value * kUradPerRad, 3));
+}
+
+report::MotionTable signature_table(const Signature& s, instruments::Plane plane,
+                                    const Wording& words) {
+  report::MotionTable table{.heading = words("Signature"),
+                            .columns = {words("term"), ">" + words("value"), ">" + words("sd"),
+                                        words("unit"), words("what looks alike")}};
   for (std::size_t k = 0; k < kSignatureTerms; ++k) {
     const auto term = static_cast<SignatureTerm>(k);
     if (term == SignatureTerm::servo && !s.both_senses) continue;
     table.rows.push_back(
-        {fmt::format("{}: {}", term_name(term, plane), text_of(term).cause),
-         fixed_decimal(s.value[k] * unit_of(term), 3), fixed_decimal(s.sd[k] * unit_of(term), 3),
-         term == SignatureTerm::square ? "urad" : "um", std::string(text_of(term).looks_alike)});
+        {fmt::format("{}: {}", term_name(term, plane, words), words.word(text_of(term).cause)),
+         term_text(s.value[k], term, words), term_text(s.sd[k], term, words),
+         term == SignatureTerm::square ? "urad" : std::string(words.unit("um")),
+         words.word(text_of(term).looks_alike)});
   }
-  table.note = fmt::format("Residual {} um rms.", um_text(s.residual_rms));
+  table.note = words("Residual {0} {1} rms.", shown_um(s.residual_rms, words), words.unit("um"));
   if (!s.both_senses) {
-    table.note += " One direction alone does not tell servo mismatch from squareness.";
+    table.note += words(" One direction alone does not tell servo mismatch from squareness.");
   }
   return table;
 }
@@ -139,33 +155,40 @@ std::string text_of_table(const report::MotionTable& table, std::size_t dropped 
   return text.text() + table.note + "\n";
 }
 
+std::string percent_text(double share, const Wording& words) {
+  return words.number(fmt::format("{:.1f} %", 100.0 * share));
+}
+
 std::vector<report::BarRow> bars_of(const std::vector<Contribution>& ranked,
-                                    instruments::Plane plane) {
+                                    instruments::Plane plane, const Wording& words) {
   std::vector<report::BarRow> bars;
   for (const Contribution& each : ranked) {
-    bars.push_back({each.term ? term_name(*each.term, plane) : "residual", each.share,
-                    fmt::format("{} µm, {:.1f} %", um_text(each.width), 100.0 * each.share)});
+    bars.push_back({each.term ? term_name(*each.term, plane, words) : words("residual"), each.share,
+                    fmt::format("{} {}, {}", shown_um(each.width, words), words.symbol("um"),
+                                percent_text(each.share, words))});
   }
   return bars;
 }
 
-std::string contributions_text(const std::vector<Contribution>& ranked) {
-  TextTable order({"contribution", "um alone", "share"});
+std::string contributions_text(const std::vector<Contribution>& ranked, const Wording& words) {
+  TextTable order({words("contribution"), words("{0} alone", words.unit("um")), words("share")});
   for (const Contribution& each : ranked) {
-    order.row({contribution_name(each), um_text(each.width),
-               fmt::format("{:.1f} %", 100.0 * each.share)});
+    order.row({words.word(contribution_name(each)), shown_um(each.width, words),
+               percent_text(each.share, words)});
   }
   return order.text() +
-         "Contributions are G of each term alone; their sum exceeds G where terms cancel.\n";
+         words("Contributions are G of each term alone; their sum exceeds G where terms cancel.") +
+         "\n";
 }
 
-// Every few samples of a run, in um.
-report::PolarRound round_of(const std::vector<double>& angle, const std::vector<double>& mm) {
+// Every few samples of a run, as they are drawn.
+report::PolarRound round_of(const std::vector<double>& angle, const std::vector<double>& mm,
+                            const Wording& words) {
   constexpr std::size_t kMostOnPaper = 1800;
   const std::size_t stride = std::max<std::size_t>(1, angle.size() / kMostOnPaper);
   report::PolarRound round;
   for (std::size_t i = 0; i < angle.size(); i += stride) {
-    round.push_back({angle[i], mm[i] * kUmPerMm, i > 0});
+    round.push_back({angle[i], words.shown(mm[i] * kUmPerMm, "um"), i > 0});
   }
   return round;
 }
@@ -183,20 +206,24 @@ std::vector<double> about_centre(const CircleTrace& trace, std::vector<double> d
 void draw_over_axes(MotionAnswer& answer, const std::vector<CircleTrace>& traces,
                     const instruments::PolarCircle& centre, instruments::Plane plane,
                     double length) {
+  const Wording& words = answer.words;
   for (const auto letter : axes_of(plane)) {
     const bool first = letter == axes_of(plane)[0];
     report::TraceChart chart{
-        .title = fmt::format("Deviation about the fitted centre over {}", to_char(letter)),
-        .along_title = fmt::format("{} from the centre, mm", to_char(letter)),
-        .value_title = "deviation, µm"};
+        .title =
+            words("Deviation about the fitted centre over {0}", std::string(1, to_char(letter))),
+        .along_title =
+            words("{0} from the centre, {1}", std::string(1, to_char(letter)), words.symbol("mm")),
+        .value_title = words("deviation, {0}", words.symbol("um"))};
     for (const CircleTrace& trace : traces) {
       std::vector<double> along;
       for (const double angle : trace.angle) {
-        along.push_back(length * (first ? std::cos(angle) : std::sin(angle)));
+        along.push_back(words.shown(length * (first ? std::cos(angle) : std::sin(angle)), "mm"));
       }
-      chart.lines.push_back({.name = std::string(name_of(trace.sense)),
-                             .along = std::move(along),
-                             .value = in_um(about_centre(trace, trace.deviation, centre))});
+      chart.lines.push_back(
+          {.name = words.word(name_of(trace.sense)),
+           .along = std::move(along),
+           .value = drawn_um(about_centre(trace, trace.deviation, centre), words)});
     }
     answer.page.charts.push_back(std::move(chart));
   }
@@ -205,15 +232,16 @@ void draw_over_axes(MotionAnswer& answer, const std::vector<CircleTrace>& traces
 void draw_traces(MotionAnswer& answer, const std::vector<CircleTrace>& traces,
                  const instruments::PolarCircle& centre, const std::optional<Signature>& fitted,
                  instruments::Plane plane, double length) {
-  report::TraceChart chart{.title = "Deviation about the fitted centre over the angle",
-                           .along_title = "angle, °",
-                           .value_title = "deviation, µm"};
+  const Wording& words = answer.words;
+  report::TraceChart chart{.title = words("Deviation about the fitted centre over the angle"),
+                           .along_title = words("angle, °"),
+                           .value_title = words("deviation, {0}", words.symbol("um"))};
   for (const CircleTrace& trace : traces) {
-    const std::string name(name_of(trace.sense));
+    const std::string name = words.word(name_of(trace.sense));
     const auto deviation = about_centre(trace, trace.deviation, centre);
-    answer.page.polar.push_back({name, round_of(trace.angle, deviation)});
+    answer.page.polar.push_back({name, round_of(trace.angle, deviation, words)});
     chart.lines.push_back(
-        {.name = name, .along = in_degrees(trace.angle), .value = in_um(deviation)});
+        {.name = name, .along = in_degrees(trace.angle), .value = drawn_um(deviation, words)});
   }
   answer.page.charts.push_back(std::move(chart));
   draw_over_axes(answer, traces, centre, plane, length);
@@ -223,8 +251,8 @@ void draw_traces(MotionAnswer& answer, const std::vector<CircleTrace>& traces,
     std::vector<double> modelled = traces[k].deviation;
     for (std::size_t i = 0; i < modelled.size(); ++i) modelled[i] -= rest[k][i];
     answer.page.polar.push_back(
-        {fmt::format("{}, fitted signature", name_of(traces[k].sense)),
-         round_of(traces[k].angle, about_centre(traces[k], modelled, centre)), true});
+        {words("{0}, fitted signature", words.word(name_of(traces[k].sense))),
+         round_of(traces[k].angle, about_centre(traces[k], modelled, centre), words), true});
   }
 }
 
@@ -234,8 +262,13 @@ void add_spikes(MotionAnswer& answer, Document& doc, const std::vector<CircleTra
   const auto found = instruments::reversal_spikes(traces, length);
   if (!found) return;
   Document spikes;
-  report::MotionTable table{.heading = "Spikes after reversals",
-                            .columns = {"axis", ">height, um", ">sd, um", ">dies away over, mm"}};
+  const Wording& words = answer.words;
+  const auto um_text = [&](double mm) { return shown_um(mm, words); };
+  const std::string um(words.unit("um"));
+  report::MotionTable table{
+      .heading = words("Spikes after reversals"),
+      .columns = {words("axis"), ">" + words("height, {0}", um), ">" + words("sd, {0}", um),
+                  ">" + words("dies away over, {0}", words.unit("mm"))}};
   bool seen = false;
   for (std::size_t k = 0; k < found->axes.size(); ++k) {
     const instruments::Spike& spike = found->axes.at(k);
@@ -248,8 +281,8 @@ void add_spikes(MotionAnswer& answer, Document& doc, const std::vector<CircleTra
     spikes[axis] = Document{{"height_um", spike.height * kUmPerMm},
                             {"sd_um", spike.sd * kUmPerMm},
                             {"over_mm", spike.distance}};
-    table.rows.push_back(
-        {axis, um_text(spike.height), um_text(spike.sd), fixed_decimal(spike.distance, 3)});
+    table.rows.push_back({axis, um_text(spike.height), um_text(spike.sd),
+                          words.number(fixed_decimal(words.shown(spike.distance, "mm"), 3))});
   }
   if (seen) {
     Document value;
@@ -260,13 +293,12 @@ void add_spikes(MotionAnswer& answer, Document& doc, const std::vector<CircleTra
           known ? std::optional(found->signature.at(k) * unit_of(term)) : std::nullopt;
     }
     spikes["signature_without"] = value;
-    table.note = fmt::format(
+    table.note = words(
         "Height: how far the axis lags just after it has turned back; it dies away as exp(-travel "
-        "/ "
-        "distance). Without spikes the backlash is {} and {} um; {} um rms is left.",
+        "/ distance). Without spikes the backlash is {0} and {1} {3}; {2} {3} rms is left.",
         um_text(found->signature.at(static_cast<std::size_t>(SignatureTerm::backlash_1))),
         um_text(found->signature.at(static_cast<std::size_t>(SignatureTerm::backlash_2))),
-        um_text(found->residual_rms));
+        um_text(found->residual_rms), um);
     answer.page.tables.push_back(table);
     answer.text += "\n" + table.heading + "\n" + text_of_table(table);
   }
@@ -288,16 +320,16 @@ void add_circle_evaluation(MotionAnswer& answer, const std::vector<CircleTrace>&
   const auto values = instruments::circle_values(traces);
   if (!values) return warn(answer, values.error());
   Document doc = values_of(*values);
-  answer.page.tables.push_back(values_table(*values));
+  answer.page.tables.push_back(values_table(*values, answer.words));
   answer.text += text_of_table(answer.page.tables.back());
   const auto found = instruments::signature(traces, length);
   if (found) {
     const auto ranked = instruments::contributions(traces, *found, length);
     add_signature(doc, *found, ranked);
-    answer.page.tables.push_back(signature_table(*found, plane));
-    answer.page.contributions = bars_of(ranked, plane);
-    answer.text +=
-        "\n" + text_of_table(answer.page.tables.back(), 1) + "\n" + contributions_text(ranked);
+    answer.page.tables.push_back(signature_table(*found, plane, answer.words));
+    answer.page.contributions = bars_of(ranked, plane, answer.words);
+    answer.text += "\n" + text_of_table(answer.page.tables.back(), 1) + "\n" +
+                   contributions_text(ranked, answer.words);
     add_spikes(answer, doc, traces, plane, length);
   } else {
     warn(answer, found.error());

@@ -62,7 +62,8 @@ Result<MotionAnswer> cone_answer(const ConeMotionWords& words) {
                                  .moved = *moved});
   if (!bar) return bar.error();
   const std::vector<double>& readings = bar->readings;
-  MotionAnswer answer = answer_of("cone", fmt::format("Cone path, bar {}", words.sense), *setup);
+  MotionAnswer answer =
+      answer_of("cone", setup->words("Cone path, bar {0}", setup->words.word(words.sense)), *setup);
   if (auto problem = add_bar(answer, words, *setup, *test, "phi", *bar)) return *std::move(problem);
   answer.document["sense"] = words.sense;
   answer.document["cone_angle_deg"] = words.cone_angle;

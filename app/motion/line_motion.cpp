@@ -46,50 +46,59 @@ Document values_of(const Positioning& p) {
           {"A", um(p.accuracy)}};
 }
 
-std::string positioning_text(const std::vector<double>& targets, const Positioning& p) {
-  const auto number = [](double mm) { return fixed_decimal(mm * kUmPerMm, 3); };
-  TextTable table({"target mm", "up um", "2 s", "down um", "2 s", "reversal"});
+// On the page and in the text.
+report::MotionTable values_table(const Positioning& p, const report::Wording& words) {
+  const auto number = [&](double mm) { return shown_um(mm, words); };
+  return {.heading = words("Values"),
+          .columns = {std::string(words.unit("um")), ">" + words("both"), ">" + words("up"),
+                      ">" + words("down")},
+          .rows = {{words("A accuracy"), number(p.accuracy), number(p.up.accuracy),
+                    number(p.down.accuracy)},
+                   {words("R repeatability"), number(p.repeatability), number(p.up.repeatability),
+                    number(p.down.repeatability)},
+                   {words("E systematic deviation"), number(p.systematic), number(p.up.systematic),
+                    number(p.down.systematic)},
+                   {words("M mean bidirectional"), number(p.mean_range), "", ""},
+                   {words("B reversal"), number(p.largest_reversal), "", ""}}};
+}
+
+std::string positioning_text(const std::vector<double>& targets, const Positioning& p,
+                             const report::Wording& words) {
+  const auto number = [&](double mm) { return shown_um(mm, words); };
+  const auto um = words.unit("um");
+  TextTable table({words("target {0}", words.unit("mm")), words("up {0}", um), "2 s",
+                   words("down {0}", um), "2 s", words("reversal")});
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    table.row({fmt::format("{:g}", targets[i]), number(p.up.mean[i]), number(2.0 * p.up.sd[i]),
-               number(p.down.mean[i]), number(2.0 * p.down.sd[i]), number(p.reversal[i])});
+    table.row({words.general(words.shown(targets[i], "mm")), number(p.up.mean[i]),
+               number(2.0 * p.up.sd[i]), number(p.down.mean[i]), number(2.0 * p.down.sd[i]),
+               number(p.reversal[i])});
   }
-  TextTable values({"um", "both", "up", "down"});
-  values.row({"A accuracy", number(p.accuracy), number(p.up.accuracy), number(p.down.accuracy)});
-  values.row({"R repeatability", number(p.repeatability), number(p.up.repeatability),
-              number(p.down.repeatability)});
-  values.row({"E systematic deviation", number(p.systematic), number(p.up.systematic),
-              number(p.down.systematic)});
-  values.row({"M mean bidirectional", number(p.mean_range)});
-  values.row({"B reversal", number(p.largest_reversal)});
+  const report::MotionTable shown = values_table(p, words);
+  TextTable values({shown.columns[0], words("both"), words("up"), words("down")});
+  for (const auto& row : shown.rows) values.row(row);
   return table.text() + "\n" + values.text();
 }
 
 void draw_positioning(MotionAnswer& answer, const std::vector<double>& targets,
                       const Positioning& p) {
-  report::TraceChart chart{.title = "Means of the runs with bands of two standard deviations",
-                           .along_title = "target, mm",
-                           .value_title = "deviation, µm"};
+  const report::Wording& words = answer.words;
+  report::TraceChart chart{
+      .title = words("Means of the runs with bands of two standard deviations"),
+      .along_title = words("target, {0}", words.symbol("mm")),
+      .value_title = words("deviation, {0}", words.symbol("um"))};
+  std::vector<double> places = targets;
+  for (double& each : places) each = words.shown(each, "mm");
   for (const auto* side : {&p.up, &p.down}) {
-    std::vector<double> band = in_um(side->sd);
+    std::vector<double> band = drawn_um(side->sd, words);
     for (double& each : band) each *= 2.0;
-    chart.lines.push_back({.name = side == &p.up ? "up" : "down",
-                           .along = targets,
-                           .value = in_um(side->mean),
+    chart.lines.push_back({.name = side == &p.up ? words("up") : words("down"),
+                           .along = places,
+                           .value = drawn_um(side->mean, words),
                            .half_width = std::move(band),
                            .dots = true});
   }
   answer.page.charts.push_back(std::move(chart));
-  const auto number = [](double mm) { return fixed_decimal(mm * kUmPerMm, 3); };
-  answer.page.tables.push_back(
-      {.heading = "Values",
-       .columns = {"um", ">both", ">up", ">down"},
-       .rows = {{"A accuracy", number(p.accuracy), number(p.up.accuracy), number(p.down.accuracy)},
-                {"R repeatability", number(p.repeatability), number(p.up.repeatability),
-                 number(p.down.repeatability)},
-                {"E systematic deviation", number(p.systematic), number(p.up.systematic),
-                 number(p.down.systematic)},
-                {"M mean bidirectional", number(p.mean_range), "", ""},
-                {"B reversal", number(p.largest_reversal), "", ""}}});
+  answer.page.tables.push_back(values_table(p, words));
 }
 
 // Displacements at the poses of runs, a list a run, before noise, and how far those of a program
@@ -148,8 +157,10 @@ Document straightness_of_axis(const LineRuns& line, const std::vector<Vec3>& mea
                          {"end_points", found.end_points * kUmPerMm},
                          {"minimum_zone", found.minimum_zone * kUmPerMm}};
     answer.text +=
-        fmt::format("straightness in {}: {:.3f} um least squares, {:.3f} um minimum zone\n", name,
-                    found.least_squares * kUmPerMm, found.minimum_zone * kUmPerMm);
+        answer.words("straightness in {0}: {1} {3} least squares, {2} {3} minimum zone", name,
+                     shown_um(found.least_squares, answer.words),
+                     shown_um(found.minimum_zone, answer.words), answer.words.unit("um")) +
+        "\n";
   }
   return doc;
 }
@@ -162,7 +173,7 @@ std::optional<Diagnostics> add_positioning(MotionAnswer& answer, const std::vect
   if (!found) return found.error();
   answer.document["evaluation"] = values_of(*found);
   draw_positioning(answer, targets, *found);
-  answer.text += positioning_text(targets, *found);
+  answer.text += positioning_text(targets, *found, answer.words);
   return std::nullopt;
 }
 
@@ -233,7 +244,7 @@ Result<MotionAnswer> line_answer(const LineWords& words) {
     seen = instruments::shown(setup->instrument, std::move(seen), static_cast<std::uint32_t>(run));
   }
   const LineDeviations deviations = by_target(*line, readings->runs);
-  MotionAnswer answer = answer_of("line", fmt::format("Laser along {}", words.axis), *setup);
+  MotionAnswer answer = answer_of("line", setup->words("Laser along {0}", words.axis), *setup);
   if (auto problem = add_line_program(answer, words.nc, *setup, "line", "LASER " + words.axis, runs,
                                       readings->largest_difference)) {
     return *std::move(problem);
@@ -294,16 +305,20 @@ Result<MotionAnswer> diagonal_answer(const DiagonalWords& words) {
   for (const auto& [signs, line] : *lines) runs.push_back(line);
   const auto displaced = readings_of(words.nc, *setup, runs);
   if (!displaced) return displaced.error();
-  MotionAnswer answer = answer_of("diagonal", "Diagonals", *setup);
+  MotionAnswer answer = answer_of("diagonal", setup->words("Diagonals"), *setup);
+  const report::Wording& wording = answer.words;
   if (auto problem = add_line_program(answer, words.nc, *setup, "diagonal", "LASER DIAGONALS", runs,
                                       displaced->largest_difference)) {
     return *std::move(problem);
   }
   Document readings, lengths;
-  report::TraceChart chart{.title = "Readings along the diagonals",
-                           .along_title = "length along the diagonal, mm",
-                           .value_title = "reading, µm"};
-  TextTable table({"diagonal", "length mm", "middle um", "end um"});
+  report::TraceChart chart{
+      .title = wording("Readings along the diagonals"),
+      .along_title = wording("length along the diagonal, {0}", wording.symbol("mm")),
+      .value_title = wording("reading, {0}", wording.symbol("um"))};
+  TextTable table({wording("diagonal"), wording("length {0}", wording.unit("mm")),
+                   wording("middle {0}", wording.unit("um")),
+                   wording("end {0}", wording.unit("um"))});
   const auto errors = instruments::location_unknowns(setup->machine);
   std::vector<instruments::ReadingGains> gains;
   std::uint32_t number = 0;
@@ -317,16 +332,17 @@ Result<MotionAnswer> diagonal_answer(const DiagonalWords& words) {
     const auto seen =
         instruments::from_first(instruments::shown(setup->instrument, std::move(along), number++));
     readings[signs] = in_um(seen);
-    chart.lines.push_back({.name = signs, .along = {}, .value = in_um(seen), .dots = true});
+    chart.lines.push_back(
+        {.name = signs, .along = {}, .value = drawn_um(seen, wording), .dots = true});
     for (std::size_t i = 0; i < line.poses.size(); ++i) {
-      chart.lines.back().along.push_back(line.poses[i].parameter);
+      chart.lines.back().along.push_back(wording.shown(line.poses[i].parameter, "mm"));
       csv += fmt::format("{},{},{}\n", signs, shortest_decimal(line.poses[i].parameter),
                          shortest_decimal(seen[i] * kUmPerMm));
     }
     lengths[signs] = line.poses.back().parameter;
-    table.row({signs, fmt::format("{:.3f}", line.poses.back().parameter),
-               fixed_decimal(seen[seen.size() / 2] * kUmPerMm, 3),
-               fixed_decimal(seen.back() * kUmPerMm, 3)});
+    const double length = wording.shown(line.poses.back().parameter, "mm");
+    table.row({signs, wording.number(fmt::format("{:.3f}", length)),
+               shown_um(seen[seen.size() / 2], wording), shown_um(seen.back(), wording)});
     gains.push_back(instruments::line_gains(setup->machine, errors, line, setup->tool_length));
   }
   answer.document["points"] = static_cast<std::uint64_t>(words.points);
@@ -338,7 +354,7 @@ Result<MotionAnswer> diagonal_answer(const DiagonalWords& words) {
   answer.document["evaluation"] = {};
   answer.page.charts.push_back(std::move(chart));
   answer.text += table.text();
-  answer.text += "Equal diagonals prove nothing: errors may cancel on all of them.\n";
+  answer.text += wording("Equal diagonals prove nothing: errors may cancel on all of them.") + "\n";
   add_told(answer, instruments::told_by(errors, gains, spindle_ball_of(words)));
   return answer;
 }

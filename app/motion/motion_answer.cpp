@@ -1,7 +1,9 @@
 #include "app/motion/motion_answer.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "core/decimal.hpp"
@@ -16,6 +18,27 @@ using instruments::TestPose;
 
 std::vector<double> coordinates(const Vec3& v, double factor) {
   return {factor * v.x(), factor * v.y(), factor * v.z()};
+}
+
+std::string shown_um(double mm, const report::Wording& words, int decimals) {
+  // A microinch is a fortieth of a micrometre.
+  const int shown = words.is_inch() ? std::max(decimals - 1, 0) : decimals;
+  return words.number(fixed_decimal(words.shown(mm * kUmPerMm, "um"), shown));
+}
+
+std::vector<double> drawn_um(std::vector<double> mm, const report::Wording& words) {
+  for (double& each : mm) each = words.shown(each * kUmPerMm, "um");
+  return mm;
+}
+
+const char* between(const report::Wording& words) {
+  return words.decimal_sign() == ',' ? "; " : ", ";
+}
+
+std::string um_amounts(const Vec3& um, const report::Wording& words) {
+  const auto one = [&](double value) { return words.general(words.shown(value, "um")); };
+  return one(um.x()) + between(words) + one(um.y()) + between(words) + one(um.z()) + " " +
+         words.symbol("um");
 }
 
 std::vector<double> in_um(std::vector<double> mm) {
@@ -55,7 +78,8 @@ MotionAnswer answer_of(const std::string& test, const std::string& title,
     errors[entry.name] = entry.written;
     written += fmt::format("{}{} = {}", written.empty() ? "" : "; ", entry.name, entry.written);
   }
-  if (written.empty()) written = "no errors";
+  const report::Wording& words = setup.words;
+  if (written.empty()) written = words("no errors");
   const instruments::SetupErrors& off = setup.setup;
   const instruments::Instrument& instrument = setup.instrument;
   MotionAnswer answer{
@@ -72,21 +96,21 @@ MotionAnswer answer_of(const std::string& test, const std::string& title,
                    {"noise_um", instrument.noise * kUmPerMm},
                    {"resolution_um", instrument.resolution * kUmPerMm},
                    {"seed", instrument.seed}},
-      .text = fmt::format("{} on {}, {}\n", title, setup.machine.name(), written)};
-  const auto um = [](const Vec3& v) {
-    return fmt::format("{:g}, {:g}, {:g} µm", v.x() * kUmPerMm, v.y() * kUmPerMm, v.z() * kUmPerMm);
-  };
+      .text = words("{0} on {1}, {2}", title, setup.machine.name(), written) + "\n",
+      .words = words};
+  answer.page.style = words.style();
   answer.page.title = title;
-  answer.page.facts = {{"Machine", setup.machine.title()},
-                       {"Structure", setup.machine.structure()},
-                       {"Errors", written},
-                       {"Spindle ball off", um(off.ball)},
-                       {"Table ball off", um(off.table_ball)},
-                       {"Bar longer by", fmt::format("{:g} µm", off.length * kUmPerMm)},
-                       {"Tool length", fmt::format("{:g} mm", setup.tool_length)}};
+  answer.page.facts = {{words("Machine"), setup.machine.title()},
+                       {words("Structure"), setup.machine.structure()},
+                       {words("Errors"), written},
+                       {words("Spindle ball off"), um_amounts(off.ball * kUmPerMm, words)},
+                       {words("Table ball off"), um_amounts(off.table_ball * kUmPerMm, words)},
+                       {words("Bar longer by"), words.amount(off.length * kUmPerMm, "um")},
+                       {words("Tool length"), words.amount(setup.tool_length, "mm")}};
   if (instrument.noise > 0.0) {
     answer.page.facts.push_back(
-        {"Noise", fmt::format("{:g} µm, seed {}", instrument.noise * kUmPerMm, instrument.seed)});
+        {words("Noise"),
+         words("{0}, seed {1}", words.amount(instrument.noise * kUmPerMm, "um"), instrument.seed)});
   }
   return answer;
 }
@@ -107,10 +131,12 @@ void add_lobes(MotionAnswer& answer, const instruments::ProbeLobes& lobes) {
                {"lobe", lobes.amplitude * kUmPerMm},
                {"lobe_phase_deg", as_stated(lobes.phase * kDegPerRad)}};
   if (!lobes.any()) return;
+  const report::Wording& words = answer.words;
   answer.page.facts.push_back(
-      {"Pre-travel",
-       fmt::format("{:g} µm, three lobes of {:g} µm at {:g}°", lobes.constant * kUmPerMm,
-                   lobes.amplitude * kUmPerMm, as_stated(lobes.phase * kDegPerRad))});
+      {words("Pre-travel"),
+       words("{0}, three lobes of {1} at {2}°", words.amount(lobes.constant * kUmPerMm, "um"),
+             words.amount(lobes.amplitude * kUmPerMm, "um"),
+             words.general(as_stated(lobes.phase * kDegPerRad)))});
 }
 
 void add_warnings(MotionAnswer& answer) {
@@ -139,14 +165,21 @@ Result<std::vector<double>> shown_by_bar(const MotionSetup& setup,
 }
 
 void add_told(MotionAnswer& answer, const instruments::Told& told) {
-  answer.page.told = told.told;
-  answer.page.not_told = told.not_told;
   answer.document["told"] = told.told;
   answer.document["not_told"] = told.not_told;
-  answer.text += fmt::format(
-      "told, whatever the set-up: {}\nnot told alone: {}\n",
-      told.told.empty() ? "nothing" : fmt::format("{}", fmt::join(told.told, ", ")),
-      told.not_told.empty() ? "nothing" : fmt::format("{}", fmt::join(told.not_told, ", ")));
+  const report::Wording& words = answer.words;
+  // "EA0A + 1.96834 EB0A" has numbers.
+  const auto shown = [&](std::vector<std::string> names) {
+    for (std::string& each : names) each = words.number(std::move(each));
+    return names;
+  };
+  answer.page.told = shown(told.told);
+  answer.page.not_told = shown(told.not_told);
+  const auto list = [&](const std::vector<std::string>& names) {
+    return names.empty() ? words("nothing") : fmt::format("{}", fmt::join(names, between(words)));
+  };
+  answer.text += words("told, whatever the set-up: {0}", list(answer.page.told)) + "\n" +
+                 words("not told alone: {0}", list(answer.page.not_told)) + "\n";
 }
 
 }  // namespace frustum::app

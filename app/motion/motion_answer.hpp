@@ -27,6 +27,7 @@ struct MotionAnswer {
   Document document{};
   std::string text{};
   report::MotionPage page{};
+  report::Wording words{};  // of text and page
   Diagnostics warnings{};
   std::map<std::string, std::string> files{};  // of --out, besides the document
   std::optional<NcText> program{};
@@ -46,7 +47,16 @@ void add_lobes(MotionAnswer& answer, const instruments::ProbeLobes& lobes);
 // Puts the warnings into the document.
 void add_warnings(MotionAnswer& answer);
 
-// Millimetres and rad as they are shown.
+// Lengths in um, or in uin where the wording says so: with so many decimals of um; as they are
+// drawn.
+[[nodiscard]] std::string shown_um(double mm, const report::Wording& words, int decimals = 3);
+[[nodiscard]] std::vector<double> drawn_um(std::vector<double> mm, const report::Wording& words);
+// Between numbers in a row: a comma, or a semicolon where decimals have a comma.
+[[nodiscard]] const char* between(const report::Wording& words);
+// "10, -5, 3 µm", of um.
+[[nodiscard]] std::string um_amounts(const Vec3& um, const report::Wording& words);
+
+// Millimetres and rad as they are documented.
 [[nodiscard]] std::vector<double> in_um(std::vector<double> mm);
 [[nodiscard]] std::vector<double> in_degrees(std::vector<double> rad);
 [[nodiscard]] std::vector<double> coordinates(const Vec3& v, double factor = 1.0);

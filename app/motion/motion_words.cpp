@@ -131,7 +131,8 @@ Result<MotionSetup> motion_setup(const MotionWords& words) {
                      .errors = *std::move(errors),
                      .setup = *setup,
                      .instrument = {*noise, *resolution, words.seed},
-                     .tool_length = words.tool_length};
+                     .tool_length = words.tool_length,
+                     .words = report::Wording(words.style)};
 }
 
 Result<std::optional<double>> feed_per_second(const MotionWords& words) {

@@ -22,6 +22,7 @@
 #include "instruments/setup_errors.hpp"
 #include "kinematics/model/machine.hpp"
 #include "report/progress.hpp"
+#include "report/wording.hpp"
 
 namespace frustum::app {
 
@@ -63,6 +64,7 @@ struct MotionWords : AnswerOptions {
   bool jerk = false;             // the time law limits jerk, too
   ProgramWords nc{};
   std::string out{};
+  report::ReportStyle style{};  // of the page and the text
 
   // What the user has written: "--tool-length", or in a test file "tool_length".
   [[nodiscard]] std::string option(std::string_view key) const;
@@ -75,6 +77,7 @@ struct MotionSetup {
   instruments::SetupErrors setup{};
   instruments::Instrument instrument{};
   double tool_length = 0.0;
+  report::Wording words{};
 };
 [[nodiscard]] Result<MotionSetup> motion_setup(const MotionWords& words);
 // Of --setup; a length of 0 or more with its unit, 0 for an empty text; of --pretravel and --lobe.

@@ -15,7 +15,10 @@ using kinematics::AxisPositions;
 
 Result<MotionSetup> setup_of_job(const ProbeWords& words, const Job& job,
                                  kinematics::GeometricErrors errors) {
-  MotionSetup setup{.machine = job.machine, .entries = job.errors, .errors = std::move(errors)};
+  MotionSetup setup{.machine = job.machine,
+                    .entries = job.errors,
+                    .errors = std::move(errors),
+                    .words = report::Wording(words.style)};
   const auto off = setup_errors_of(words.setup, "--setup");
   if (!off) return off.error();
   if (off->length != 0.0 || !off->table_ball.isZero(0.0)) {
@@ -110,7 +113,8 @@ Result<MotionAnswer> probe_answer(const ProbeWords& words) {
   if (!gains) return gains.error();
   found.gains = *std::move(gains);
 
-  MotionAnswer answer = answer_of("probe", "The part probed where it was cut", *setup);
+  MotionAnswer answer =
+      answer_of("probe", setup->words("The part probed where it was cut"), *setup);
   for (const Diagnostic& each : trial->wrong_cuts) answer.warnings.push_back(each);
   for (const Diagnostic& each : read->warnings) answer.warnings.push_back(each);
   answer.document["job"] = words.job;

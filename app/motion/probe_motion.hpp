@@ -23,6 +23,7 @@ struct ProbeWords : AnswerOptions {
   LobeWords lobes{};
   std::string measured{};  // a log of touches; empty: they are simulated
   std::string out{};
+  report::ReportStyle style{};
 };
 
 [[nodiscard]] Result<MotionAnswer> probe_answer(const ProbeWords& words);

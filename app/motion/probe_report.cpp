@@ -14,6 +14,8 @@
 namespace frustum::app {
 namespace {
 
+using report::Phrase;
+using report::Wording;
 using trials::ErrorFate;
 using trials::PartGains;
 using trials::PartTouches;
@@ -26,7 +28,7 @@ std::vector<std::string> names_of(const PartGains& gains, const std::vector<std:
 
 // "cone.form 72 %": what an error does on the machine, of what it does on a CMM.
 std::vector<std::string> shares_of(const PartGains& gains, std::size_t parameter,
-                                   const std::vector<std::size_t>& which) {
+                                   const std::vector<std::size_t>& which, const Wording& words) {
   constexpr double kManifold = 10.0;
   std::vector<std::string> texts;
   for (const std::size_t c : which) {
@@ -34,7 +36,7 @@ std::vector<std::string> shares_of(const PartGains& gains, std::size_t parameter
     const double share = gains.on_machine(row, k) / gains.on_cmm(row, k);
     texts.push_back(share < kManifold
                         ? fmt::format("{} {:.0f} %", gains.characteristics[c], 100.0 * share)
-                        : gains.characteristics[c] + " (there alone)");
+                        : gains.characteristics[c] + words(" (there alone)"));
   }
   return texts;
 }
@@ -58,10 +60,13 @@ Lists shown_gains(const PartGains& gains, const Eigen::MatrixXd& matrix) {
 
 void add_characteristics(MotionAnswer& answer, const PartFindings& found) {
   std::vector<Document> list;
-  TextTable table({"characteristic", "unit", "on a CMM", "on the machine", "difference"});
+  const Wording& words = answer.words;
+  TextTable table({words("characteristic"), words("unit"), words("on a CMM"),
+                   words("on the machine"), words("difference")});
   report::MotionTable shown{
-      .heading = "The same part on a CMM and on its machine",
-      .columns = {"characteristic", "unit", ">on a CMM", ">on the machine", ">difference"}};
+      .heading = words("The same part on a CMM and on its machine"),
+      .columns = {words("characteristic"), words("unit"), ">" + words("on a CMM"),
+                  ">" + words("on the machine"), ">" + words("difference")}};
   for (const auto& there : found.on_cmm.characteristics) {
     const auto at = found.on_machine.find(there.name);
     if (!at) continue;
@@ -74,38 +79,45 @@ void add_characteristics(MotionAnswer& answer, const PartFindings& found) {
                     {"difference", difference}});
     // A degree shows a microradian in its fifth decimal.
     const int decimals = there.unit == "deg" || there.unit == "mm" ? 6 : 3;
-    const std::vector<std::string> cells{
-        there.name, there.unit, fixed_decimal(there.value, decimals),
-        fixed_decimal(here.value, decimals), fixed_decimal(difference, decimals)};
+    const auto number = [&](double value) {
+      return words.number(fixed_decimal(words.shown(value, there.unit), decimals));
+    };
+    const std::vector<std::string> cells{there.name, std::string(words.unit(there.unit)),
+                                         number(there.value), number(here.value),
+                                         number(difference)};
     table.row(cells);
     shown.rows.push_back(cells);
   }
   answer.document["characteristics"] = list;
   answer.text += table.text();
-  shown.note =
+  shown.note = words(
       "The CMM makes no error here; what differs are the errors of the machine, which cut the part "
-      "and probe it.";
+      "and probe it.");
   answer.page.tables.push_back(std::move(shown));
 }
 
 struct Group {
   ErrorFate fate;
   const char* key;
-  const char* says;
+  Phrase says;
+  Phrase shown;  // in the table of the page
 };
 constexpr std::array<Group, 5> kGroups{
     {{ErrorFate::cancels, "cancel",
-      "cancel: the machine makes them again where it probes, and no measurement there shows them"},
-     {ErrorFate::in_part, "cancel_in_part", "cancel in part"},
-     {ErrorFate::stays, "stay", "are seen on the machine about as on a CMM"},
-     {ErrorFate::grows, "grow", "are seen more on the machine than on a CMM"},
-     {ErrorFate::nothing, "without_effect", "do nothing to these characteristics"}}};
+      "cancel: the machine makes them again where it probes, and no measurement there shows them",
+      "cancels"},
+     {ErrorFate::in_part, "cancel_in_part", "cancel in part", "cancels in part"},
+     {ErrorFate::stays, "stay", "are seen on the machine about as on a CMM", "stays"},
+     {ErrorFate::grows, "grow", "are seen more on the machine than on a CMM", "grows"},
+     {ErrorFate::nothing, "without_effect", "do nothing to these characteristics", "stays"}}};
 
 void add_fates(MotionAnswer& answer, const PartGains& gains) {
   std::vector<trials::FateOfError> fates;
   for (std::size_t k = 0; k < gains.parameters.size(); ++k) fates.push_back(fate_of(gains, k));
-  report::MotionTable shown{.heading = "What becomes of each error on the machine",
-                            .columns = {"error", "on the machine", "of its effect on a CMM"}};
+  const Wording& words = answer.words;
+  report::MotionTable shown{
+      .heading = words("What becomes of each error on the machine"),
+      .columns = {words("error"), words("on the machine"), words("of its effect on a CMM")}};
   for (const Group& group : kGroups) {
     std::vector<std::string> names;
     std::vector<Document> parts;
@@ -117,17 +129,13 @@ void add_fates(MotionAnswer& answer, const PartGains& gains) {
                  kept = names_of(gains, fates[k].kept);
       parts.push_back({{"error", name}, {"cancelled", cancelled}, {"kept", kept}});
       if (group.fate == ErrorFate::nothing) continue;
-      std::string where = fmt::format("{}", fmt::join(shares_of(gains, k, fates[k].kept), ", "));
+      std::string where =
+          fmt::format("{}", fmt::join(shares_of(gains, k, fates[k].kept, words), ", "));
       if (!cancelled.empty()) {
-        where = fmt::format("not in {}{}{}", fmt::join(cancelled, ", "),
-                            where.empty() ? "" : "; in ", where);
+        where = words("not in {0}", fmt::format("{}", fmt::join(cancelled, ", "))) +
+                (where.empty() ? "" : words("; in ")) + where;
       }
-      shown.rows.push_back({name,
-                            std::string(group.key) == "cancel_in_part" ? "cancels in part"
-                            : std::string(group.key) == "cancel"       ? "cancels"
-                            : std::string(group.key) == "stay"         ? "stays"
-                                                                       : "grows",
-                            where});
+      shown.rows.push_back({name, words(group.shown), where});
     }
     if (group.fate == ErrorFate::in_part) {
       answer.document[group.key] = parts;
@@ -135,13 +143,13 @@ void add_fates(MotionAnswer& answer, const PartGains& gains) {
       answer.document[group.key] = names;
     }
     if (!names.empty()) {
-      answer.text += fmt::format("{}: {}\n", group.says, fmt::join(names, ", "));
+      answer.text += fmt::format("{}: {}\n", words(group.says), fmt::join(names, ", "));
     }
   }
-  shown.note = fmt::format(
-      "An error cancels where its effect on the machine is below {:g} % of that on a CMM. Of "
+  shown.note = words(
+      "An error cancels where its effect on the machine is below {0} % of that on a CMM. Of "
       "component errors it is a share that grows evenly over the travel.",
-      100.0 * trials::kCancels);
+      words.general(100.0 * trials::kCancels));
   answer.page.tables.push_back(std::move(shown));
 }
 
@@ -178,6 +186,7 @@ std::string points_csv(const Job& job, const PartTouches& plan,
 
 void add_part_findings(MotionAnswer& answer, const Job& job, const PartTouches& plan,
                        const PartFindings& found) {
+  const Wording& words = answer.words;
   Document& doc = answer.document;
   doc["ball_diameter_mm"] = 2.0 * plan.ball_radius;
   doc["touches"] = static_cast<std::uint64_t>(plan.touches.size());
@@ -191,7 +200,8 @@ void add_part_findings(MotionAnswer& answer, const Job& job, const PartTouches& 
       if (job.machine.joint(letter) == nullptr) continue;
       const double degrees = as_stated(pose[letter] * kDegPerRad);
       each[std::string(1, to_char(letter))] = degrees;
-      text += fmt::format("{}{} = {:g}°", text.empty() ? "" : ", ", to_char(letter), degrees);
+      text += fmt::format("{}{} = {}°", text.empty() ? "" : ", ", to_char(letter),
+                          words.general(degrees));
     }
     where += (where.empty() ? "" : "; ") + text;
     poses.push_back(std::move(each));
@@ -208,26 +218,28 @@ void add_part_findings(MotionAnswer& answer, const Job& job, const PartTouches& 
   doc["axes"] = axes_of(job.machine, at);
   doc["reading_um"] = in_um(found.readings);
   auto& facts = answer.page.facts;
-  std::erase_if(facts, [](const auto& fact) {
-    return fact[0] == "Bar longer by" || fact[0] == "Table ball off";
+  std::erase_if(facts, [&](const auto& fact) {
+    return fact[0] == words("Bar longer by") || fact[0] == words("Table ball off");
   });
   for (auto& [name, value] : facts) {
-    if (name == "Spindle ball off") name = "Ball of the probe off";
+    if (name == words("Spindle ball off")) name = words("Ball of the probe off");
   }
-  if (!where.empty()) facts.push_back({"Probed at", where});
-  facts.push_back({"Ball", fmt::format("{:g} mm", 2.0 * plan.ball_radius)});
-  if (!found.log.empty()) facts.push_back({"Touches of", found.log});
-  answer.text += fmt::format("{} touches with a ball of {:g} mm{}\n", plan.touches.size(),
-                             2.0 * plan.ball_radius, where.empty() ? "" : " at " + where);
+  const std::string ball = words.amount(2.0 * plan.ball_radius, "mm");
+  if (!where.empty()) facts.push_back({words("Probed at"), where});
+  facts.push_back({words("Ball"), ball});
+  if (!found.log.empty()) facts.push_back({words("Touches of"), found.log});
+  answer.text += words("{0} touches with a ball of {1}", plan.touches.size(), ball) +
+                 (where.empty() ? "" : words(" at {0}", where)) + "\n";
   add_characteristics(answer, found);
   add_fates(answer, found.gains);
   add_gains(doc, found.gains);
-  report::TraceLine line{.name = "reading", .value = in_um(found.readings), .dots = true};
+  report::TraceLine line{
+      .name = words("reading"), .value = drawn_um(found.readings, words), .dots = true};
   line.along.resize(line.value.size());
   std::iota(line.along.begin(), line.along.end(), 0.0);
-  answer.page.charts.push_back({.title = "How far out the surface seems to be",
-                                .along_title = "touch",
-                                .value_title = "reading, µm",
+  answer.page.charts.push_back({.title = words("How far out the surface seems to be"),
+                                .along_title = words("touch"),
+                                .value_title = words("reading, {0}", words.symbol("um")),
                                 .lines = {std::move(line)}});
   answer.files["touches.csv"] = part_log(job.machine, job.piece, plan, found.readings);
   answer.files["points.csv"] = points_csv(job, plan, found.readings);

@@ -22,7 +22,13 @@ using calibration::ReadingCheck;
 using instruments::TouchPlan;
 using PlaceName = std::function<std::string(std::size_t)>;
 
-std::string um_text(double mm) { return fmt::format("{:.4g} um", mm * kUmPerMm); }
+using report::Wording;
+
+// Of messages, in um always.
+std::string um_text(double mm, const Wording& words = Wording()) {
+  return words.number(fmt::format("{:.4g}", words.shown(mm * kUmPerMm, "um"))) + " " +
+         std::string(words.unit("um"));
+}
 
 std::vector<double> um_list(const Eigen::VectorXd& mm) {
   return in_um(std::vector<double>(mm.begin(), mm.end()));
@@ -33,13 +39,19 @@ struct ReadingNames {
   std::string readings{};  // "touches"
   PlaceName reading{};
   PlaceName group{};
+  PlaceName shown{};  // a reading as page and text name it
+  bool of_touches = true;
 };
 
-std::string spread_text(const ReadingCheck& check) {
-  std::string text = fmt::format("{} rms", um_text(check.rms));
+std::string probability_text(double probability, const Wording& words) {
+  return words.number(fmt::format("{:.2g}", probability));
+}
+
+std::string spread_text(const ReadingCheck& check, const Wording& words = Wording()) {
+  std::string text = words("{0} rms", um_text(check.rms, words));
   if (check.expected_rms) {
-    text += fmt::format(" where their noise makes {} (probability {:.2g})",
-                        um_text(*check.expected_rms), *check.probability);
+    text += words(" where their noise makes {0} (probability {1})",
+                  um_text(*check.expected_rms, words), probability_text(*check.probability, words));
   }
   return text;
 }
@@ -71,8 +83,15 @@ std::optional<Diagnostic> disagreement(const ReadingCheck& check, const ReadingN
                  "measure there again: as it is it goes into the maps");
 }
 
+// As point_text, in the wording of page and text.
+std::string shown_point(std::size_t point, const Wording& words) {
+  const std::array<std::string, 5> faces{"+X", "-X", "+Y", "-Y", words("top")};
+  return words("point {0} ({1} of column {2})", point, faces.at(point % faces.size()),
+               point / faces.size() + 1);
+}
+
 // Points all of whose touches nothing checks.
-std::vector<std::string> unchecked_points(const TouchPlan& plan, const ReadingCheck& check) {
+std::vector<std::size_t> unchecked_points(const TouchPlan& plan, const ReadingCheck& check) {
   constexpr double kUnchecked = 1e-6;
   std::array<bool, instruments::kTouchPoints> checked{};
   for (std::size_t t = 0; t < plan.touches.size(); ++t) {
@@ -80,11 +99,11 @@ std::vector<std::string> unchecked_points(const TouchPlan& plan, const ReadingCh
       checked.at(plan.touches[t].point) = true;
     }
   }
-  std::vector<std::string> names;
+  std::vector<std::size_t> points;
   for (std::size_t k = 0; k < checked.size(); ++k) {
-    if (!checked.at(k)) names.push_back(instruments::point_text(k));
+    if (!checked.at(k)) points.push_back(k);
   }
-  return names;
+  return points;
 }
 
 void add_residuals(MotionAnswer& answer, const ReadingCheck& check, const ReadingNames& names,
@@ -109,29 +128,39 @@ void add_residuals(MotionAnswer& answer, const ReadingCheck& check, const Readin
       {"suspects", suspects},
       {"residual_um", um_list(check.residuals)},
       {"sd_um", noisy ? um_list(check.standard_deviations) : std::vector<double>{}}};
-  report::MotionTable table{.heading = "What is left over of the " + names.readings,
-                            .columns = {"what", ">um", "where"}};
-  const auto number = [](double mm) { return fixed_decimal(mm * kUmPerMm, 3); };
-  table.rows.push_back({"root mean square", number(check.rms),
-                        fmt::format("{} degrees of freedom", check.degrees_of_freedom)});
+  const Wording& words = answer.words;
+  const std::string heading = names.of_touches ? words("What is left over of the touches")
+                                               : words("What is left over of the R-tests");
+  report::MotionTable table{
+      .heading = heading,
+      .columns = {words("what"), ">" + std::string(words.unit("um")), words("where")}};
+  const auto number = [&](double mm) { return shown_um(mm, words); };
+  table.rows.push_back({words("root mean square"), number(check.rms),
+                        words("{0} degrees of freedom", check.degrees_of_freedom)});
   if (check.expected_rms) {
-    table.rows.push_back({"expected of the noise", number(*check.expected_rms),
-                          fmt::format("probability {:.2g}", *check.probability)});
+    table.rows.push_back({words("expected of the noise"), number(*check.expected_rms),
+                          words("probability {0}", probability_text(*check.probability, words))});
   }
-  table.rows.push_back({"largest", number(check.residuals[largest]), names.reading(check.largest)});
-  if (noisy) table.rows.push_back({"its standard deviation", number(largest_sd), ""});
+  const std::string where = names.shown(check.largest);
+  table.rows.push_back({words("largest"), number(check.residuals[largest]), where});
+  if (noisy) table.rows.push_back({words("its standard deviation"), number(largest_sd), ""});
   answer.page.tables.push_back(std::move(table));
-  report::TraceLine line{.name = "residual", .dots = true};
-  line.value = um_list(check.residuals);
+  report::TraceLine line{.name = words("residual"), .dots = true};
+  line.value = drawn_um(std::vector<double>(check.residuals.begin(), check.residuals.end()), words);
   line.along.resize(line.value.size());
   std::iota(line.along.begin(), line.along.end(), 1.0);
-  answer.page.charts.push_back({.title = "What is left over of the " + names.readings,
-                                .along_title = "reading",
-                                .value_title = "µm",
+  answer.page.charts.push_back({.title = heading,
+                                .along_title = words("reading"),
+                                .value_title = words.symbol("um"),
                                 .lines = {std::move(line)}});
-  answer.text += fmt::format("\nleft over of the {}: {}, at most {} at {}\n", names.readings,
-                             spread_text(check), um_text(check.residuals[largest]),
-                             names.reading(check.largest));
+  const std::string spread = spread_text(check, words);
+  const std::string most = um_text(check.residuals[largest], words);
+  answer.text +=
+      "\n" +
+      (names.of_touches
+           ? words("left over of the touches: {0}, at most {1} at {2}", spread, most, where)
+           : words("left over of the R-tests: {0}, at most {1} at {2}", spread, most, where)) +
+      "\n";
 }
 
 // All readings one after the other, the balls in another order.
@@ -179,17 +208,27 @@ void add_touch_residuals(MotionAnswer& answer, const TouchPlan& plan,
   const PlaceName place = [&plan](std::size_t t) {
     return "touch of " + place_of(plan, plan.touches[t]);
   };
-  const ReadingNames names{"touches", place, place};
+  const Wording& words = answer.words;
+  const PlaceName shown = [&](std::size_t t) {
+    const auto& touch = plan.touches[t];
+    return words("touch of {0} at {1}", shown_point(touch.point, words),
+                 words.number(position_text(plan, touch.tilt, touch.turn)));
+  };
+  const ReadingNames names{"touches", place, place, shown, true};
   if (auto problem = disagreement(check, names)) answer.warnings.push_back(*std::move(problem));
   add_residuals(answer, check, names, {});
-  const auto unchecked = unchecked_points(plan, check);
+  std::vector<std::string> unchecked, shown_points;
+  for (const std::size_t point : unchecked_points(plan, check)) {
+    unchecked.push_back(instruments::point_text(point));
+    shown_points.push_back(shown_point(point, words));
+  }
   answer.document["unchecked"] = unchecked;
   if (unchecked.empty()) return;
-  const std::string note = fmt::format(
-      "Nothing checks the touches of {}: three tops give the height and the tilts of a pose and no "
-      "more, and what is touched at zero alone is compared with nothing. One that is off goes into "
-      "the maps without a trace.",
-      fmt::join(unchecked, ", "));
+  const std::string note = words(
+      "Nothing checks the touches of {0}: three tops give the height and the tilts of a pose and "
+      "no more, and what is touched at zero alone is compared with nothing. One that is off goes "
+      "into the maps without a trace.",
+      fmt::format("{}", fmt::join(shown_points, ", ")));
   answer.page.tables.back().note = note;
   answer.text += note + "\n";
 }
@@ -212,7 +251,14 @@ void add_ball_residuals(MotionAnswer& answer, const TouchPlan& plan, std::span<c
   const PlaceName reading = [&](std::size_t r) {
     return fmt::format("{} of {}", "xyz"[r % 3], group(r / 3));
   };
-  const ReadingNames names{"R-tests", reading, group};
+  const Wording& words = answer.words;
+  const PlaceName shown = [&, poses, turns](std::size_t r) {
+    const std::size_t g = r / 3, pose = g % poses;
+    const std::string ball = words("ball {0} ({1}) at {2}", g / poses + 1, ball_names[g / poses],
+                                   words.number(position_text(plan, pose / turns, pose % turns)));
+    return words("{0} of {1}", std::string(1, "xyz"[r % 3]), ball);
+  };
+  const ReadingNames names{"R-tests", reading, group, shown, false};
   const auto order = better_order(model, readings, check, options);
   std::vector<std::string> exchanged;
   for (std::size_t k = 0; k < order.size(); ++k) {

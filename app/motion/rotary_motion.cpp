@@ -90,10 +90,11 @@ Result<MotionAnswer> rotary_answer(const RotaryWords& words) {
                                  .moved = *moved});
   if (!bar) return bar.error();
   const std::vector<double>& readings = bar->readings;
-  MotionAnswer answer = answer_of("rotary",
-                                  fmt::format("Axis {}, {} bar held on the {}", words.axis,
-                                              words.direction, name_of(rotary->hold)),
-                                  *setup);
+  MotionAnswer answer = answer_of(
+      "rotary",
+      setup->words("Axis {0}, {1} bar held on the {2}", words.axis,
+                   setup->words.word(words.direction), setup->words.word(name_of(rotary->hold))),
+      *setup);
   if (auto problem = add_bar(answer, words, *setup, *test, words.axis, *bar))
     return *std::move(problem);
   answer.document["axis"] = words.axis;

@@ -8,9 +8,10 @@
 namespace frustum::app {
 namespace {
 
-std::string in_um_text(const Vec3& v, const char* unit = "um") {
-  return fmt::format("{}, {}, {} {}", fixed_decimal(v.x() * kUmPerMm, 2),
-                     fixed_decimal(v.y() * kUmPerMm, 2), fixed_decimal(v.z() * kUmPerMm, 2), unit);
+// Of three numbers, without the unit.
+std::string place_found(const Vec3& v, const report::Wording& words) {
+  return shown_um(v.x(), words, 2) + between(words) + shown_um(v.y(), words, 2) + between(words) +
+         shown_um(v.z(), words, 2);
 }
 
 }  // namespace
@@ -32,28 +33,37 @@ void add_setup_found(MotionAnswer& answer, std::span<const BarReadings> runs) {
   const Vec3 ball = found.head<3>();
   answer.document["setup_found_um"] =
       Document{{"table_ball", coordinates(ball, kUmPerMm)}, {"length", found[3] * kUmPerMm}};
-  const std::string length = fixed_decimal(found[3] * kUmPerMm, 2);
-  answer.text += fmt::format("set-up found: table ball off by {}, bar longer by {} um\n",
-                             in_um_text(ball), length);
-  answer.page.facts.push_back({"Set-up found, table ball off", in_um_text(ball, "µm")});
-  answer.page.facts.push_back({"Set-up found, bar longer by", length + " µm"});
+  const report::Wording& words = answer.words;
+  const std::string length = shown_um(found[3], words, 2), place = place_found(ball, words);
+  const std::string um = " " + std::string(words.unit("um")), symbol = " " + words.symbol("um");
+  answer.text +=
+      words("set-up found: table ball off by {0}, bar longer by {1}", place + um, length + um) +
+      "\n";
+  answer.page.facts.push_back({words("Set-up found, table ball off"), place + symbol});
+  answer.page.facts.push_back({words("Set-up found, bar longer by"), length + symbol});
 }
 
 void add_setup_found(MotionAnswer& answer, std::span<const Vec3> displacements) {
   Vec3 mean = Vec3::Zero();
   for (const Vec3& each : displacements) mean -= each / static_cast<double>(displacements.size());
   answer.document["setup_found_um"] = Document{{"table_ball", coordinates(mean, kUmPerMm)}};
-  answer.text += fmt::format("set-up found: table ball off by {}\n", in_um_text(mean));
-  answer.page.facts.push_back({"Set-up found, table ball off", in_um_text(mean, "µm")});
+  const report::Wording& words = answer.words;
+  const std::string place = place_found(mean, words);
+  answer.text +=
+      words("set-up found: table ball off by {0}", place + " " + std::string(words.unit("um"))) +
+      "\n";
+  answer.page.facts.push_back(
+      {words("Set-up found, table ball off"), place + " " + words.symbol("um")});
 }
 
 void add_setup_found(MotionAnswer& answer, double first, double second, double radius) {
   answer.document["setup_found_um"] =
       Document{{"center", std::vector<double>{first * kUmPerMm, second * kUmPerMm}},
                {"mean_radius", radius * kUmPerMm}};
-  answer.page.facts.push_back({"Set-up found, centre of the circle",
-                               fmt::format("{}, {} µm", fixed_decimal(first * kUmPerMm, 2),
-                                           fixed_decimal(second * kUmPerMm, 2))});
+  const report::Wording& words = answer.words;
+  answer.page.facts.push_back({words("Set-up found, centre of the circle"),
+                               shown_um(first, words, 2) + between(words) +
+                                   shown_um(second, words, 2) + " " + words.symbol("um")});
 }
 
 }  // namespace frustum::app

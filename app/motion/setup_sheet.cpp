@@ -14,9 +14,16 @@
 namespace frustum::app {
 namespace {
 
-std::string place_text(const Vec3& v) {
-  return fmt::format("X {} Y {} Z {}", fixed_decimal(v.x(), 3), fixed_decimal(v.y(), 3),
-                     fixed_decimal(v.z(), 3));
+using report::Wording;
+
+// mm with three decimals, inches with four.
+std::string shown_mm(double mm, const Wording& words) {
+  return words.number(fixed_decimal(words.shown(mm, "mm"), words.is_inch() ? 4 : 3));
+}
+
+std::string place_text(const Vec3& v, const Wording& words) {
+  return fmt::format("X {} Y {} Z {}", shown_mm(v.x(), words), shown_mm(v.y(), words),
+                     shown_mm(v.z(), words));
 }
 
 // Corners of a body in the frame of the table.
@@ -66,14 +73,15 @@ std::optional<report::BarDrawing::Axis> turning_axis(const kinematics::Machine& 
 }
 
 // What is on the table, with the bar where the program stops for it.
-report::BarDrawing drawing_of(const SetupSheet& sheet, const programs::BarPass& pass) {
+report::BarDrawing drawing_of(const SetupSheet& sheet, const programs::BarPass& pass,
+                              const Wording& words) {
   const auto& machine = sheet.machine;
   const auto& test = sheet.test;
-  report::BarDrawing drawing{.title = "Set-up on the table",
+  report::BarDrawing drawing{.title = words("Set-up on the table"),
                              .table_ball = test.table_ball,
                              .offset = sheet.program.work_offsets.at(1),
                              .tool_length = test.tool_length,
-                             .parameter = sheet.parameter + " grows"};
+                             .parameter = words("{0} grows", sheet.parameter)};
   constexpr int kLooks = 180;
   constexpr double kFeedIn = 1.5;  // mm
   for (int i = 0; i <= kLooks; ++i) {
@@ -92,38 +100,103 @@ report::BarDrawing drawing_of(const SetupSheet& sheet, const programs::BarPass& 
   for (const kinematics::MachineBody& body : machine.bodies()) {
     const bool on_bed = table.joints == 0 && body.part.side == 0;
     if (!on_bed && !(body.part == table)) continue;
-    drawing.bodies.push_back({body.name, corners_of(body, table_from_part)});
+    drawing.bodies.push_back({words.word(body.name), corners_of(body, table_from_part)});
   }
   return drawing;
+}
+
+// The rows of the sheet as the page shows them, and of setup.csv, which is in English and mm.
+class SheetRows {
+ public:
+  explicit SheetRows(const Wording& words)
+      : words_(words),
+        table_{.heading = words("Set-up sheet"),
+               .columns = {words("what"), words("where or how much")}} {}
+
+  template <typename Name, typename Value>
+  void add(const Name& name, const Value& value) {
+    table_.rows.push_back({name(words_), value(words_)});
+    const Wording plain;
+    csv_ += fmt::format("\"{}\",\"{}\"\n", name(plain), value(plain));
+  }
+  [[nodiscard]] const report::MotionTable& table() const { return table_; }
+  [[nodiscard]] const std::string& csv() const { return csv_; }
+
+ private:
+  const Wording& words_;
+  report::MotionTable table_;
+  std::string csv_ = "what,value\n";
+};
+
+// Of an axis over the pass, mm or degrees.
+void add_travel(SheetRows& rows, const kinematics::Joint& joint, double low, double high) {
+  const char* const unit = joint.rotary() ? "deg" : "mm";
+  const double factor = joint.rotary() ? kDegPerRad : 1.0;
+  rows.add(
+      [&](const Wording& w) { return fmt::format("{}, {}", to_char(joint.letter), w.unit(unit)); },
+      [&](const Wording& w) {
+        const auto three = [&](double value) {
+          return w.number(fmt::format("{:.3f}", w.shown(value, unit)));
+        };
+        const auto stated = [&](double value) {
+          return w.general(w.shown(as_stated(value * factor), unit));
+        };
+        if (joint.endless) return w("{0} to {1}, endless", three(low), three(high));
+        return w("{0} to {1} of {2} to {3}", three(low), three(high), stated(joint.travel.lo),
+                 stated(joint.travel.hi));
+      });
+}
+
+std::string distance_text(double mm, const Wording& words) {
+  return words.number(fmt::format("{:.{}f}", words.shown(mm, "mm"), words.is_inch() ? 2 : 1)) +
+         " " + std::string(words.unit("mm"));
 }
 
 }  // namespace
 
 std::optional<Diagnostics> add_setup_sheet(MotionAnswer& answer, const SetupSheet& sheet) {
   const auto& [machine, test, program, parameter, stroke, readings] = sheet;
-  report::MotionTable table{.heading = "Set-up sheet", .columns = {"what", "where or how much"}};
-  std::string csv = "what,value\n";
-  const auto row = [&](const std::string& what, const std::string& value) {
-    table.rows.push_back({what, value});
-    csv += fmt::format("\"{}\",\"{}\"\n", what, value);
-  };
+  SheetRows rows(answer.words);
   const Vec3& origin = program.work_offsets.at(1);
   const auto positions = place_tip(machine, origin, 0.0, {});
-  row("NC program", program.program_file);
-  row("G54 in the frame of the table, mm", place_text(origin));
-  row("G54 in machine coordinates, without tool, mm",
-      place_text({positions[kinematics::AxisLetter::X], positions[kinematics::AxisLetter::Y],
-                  positions[kinematics::AxisLetter::Z]}));
-  row("T1: spindle ball, length, mm", fmt::format("{:g}", test.tool_length));
-  row("table ball in the frame of the table, mm", place_text(test.table_ball));
-  row("bar, mm", fmt::format("{}", fixed_decimal(test.bar, 3)));
+  const Vec3 machine_origin(positions[kinematics::AxisLetter::X],
+                            positions[kinematics::AxisLetter::Y],
+                            positions[kinematics::AxisLetter::Z]);
+  rows.add([&](const Wording& w) { return w("NC program"); },
+           [&](const Wording&) { return program.program_file; });
+  const auto add_place = [&](const auto& name, const Vec3& v) {
+    rows.add(name, [&](const Wording& w) { return place_text(v, w); });
+  };
+  add_place([](const Wording& w) { return w("G54 in the frame of the table, {0}", w.unit("mm")); },
+            origin);
+  add_place(
+      [](const Wording& w) {
+        return w("G54 in machine coordinates, without tool, {0}", w.unit("mm"));
+      },
+      machine_origin);
+  rows.add([](const Wording& w) { return w("T1: spindle ball, length, {0}", w.unit("mm")); },
+           [&](const Wording& w) { return w.general(w.shown(test.tool_length, "mm")); });
+  add_place(
+      [](const Wording& w) { return w("table ball in the frame of the table, {0}", w.unit("mm")); },
+      test.table_ball);
+  rows.add([](const Wording& w) { return w("bar, {0}", w.unit("mm")); },
+           [&](const Wording& w) { return shown_mm(test.bar, w); });
   const auto [least, most] =
       std::ranges::minmax_element(test.poses, {}, &instruments::TestPose::parameter);
   const programs::BarPass pass = programs::pass_of(machine, test);
-  row("capture, deg of " + parameter,
-      fmt::format("{:.6g} to {:.6g}", least->parameter * kDegPerRad, most->parameter * kDegPerRad));
-  row("with overshoot, deg", fmt::format("{:g} to {:g}", as_stated(pass.from * kDegPerRad),
-                                         as_stated(pass.to * kDegPerRad)));
+  const auto six_digits = [](double value, const Wording& w) {
+    return w.number(fmt::format("{:.6g}", value));
+  };
+  rows.add([&](const Wording& w) { return w("capture, deg of {0}", parameter); },
+           [&](const Wording& w) {
+             return w("{0} to {1}", six_digits(least->parameter * kDegPerRad, w),
+                      six_digits(most->parameter * kDegPerRad, w));
+           });
+  rows.add([](const Wording& w) { return w("with overshoot, deg"); },
+           [&](const Wording& w) {
+             return w("{0} to {1}", w.general(as_stated(pass.from * kDegPerRad)),
+                      w.general(as_stated(pass.to * kDegPerRad)));
+           });
   constexpr int kLooks = 720;  // of a pass, for the travels that it takes
   Document travels;
   for (const kinematics::Joint& joint : machine.joints()) {
@@ -136,17 +209,17 @@ std::optional<Diagnostics> add_setup_sheet(MotionAnswer& answer, const SetupShee
     }
     const double unit = joint.rotary() ? kDegPerRad : 1.0;
     const std::string name(1, to_char(joint.letter));
-    row(fmt::format("{}, {}", name, joint.rotary() ? "deg" : "mm"),
-        joint.endless
-            ? fmt::format("{:.3f} to {:.3f}, endless", low * unit, high * unit)
-            : fmt::format("{:.3f} to {:.3f} of {:g} to {:g}", low * unit, high * unit,
-                          as_stated(joint.travel.lo * unit), as_stated(joint.travel.hi * unit)));
+    add_travel(rows, joint, low * unit, high * unit);
     travels[name] = std::vector<double>{low * unit, high * unit};
   }
   double largest = 0.0;
   for (const double reading : readings) largest = std::max(largest, std::abs(reading));
-  row("largest reading, of the stroke",
-      fmt::format("{:.1f} um of {:g} um", largest * kUmPerMm, stroke * kUmPerMm));
+  rows.add([](const Wording& w) { return w("largest reading, of the stroke"); },
+           [&](const Wording& w) {
+             return w("{0} {2} of {1} {2}",
+                      w.number(fmt::format("{:.1f}", w.shown(largest * kUmPerMm, "um"))),
+                      w.general(w.shown(stroke * kUmPerMm, "um")), w.unit("um"));
+           });
   const auto clearance = bar_clearance(machine, test, pass);
   if (!clearance) return clearance.error();
   if (*clearance && !((*clearance)->distance > 0.0)) {
@@ -158,13 +231,14 @@ std::optional<Diagnostics> add_setup_sheet(MotionAnswer& answer, const SetupShee
         "put the table ball higher or farther from there, take a longer tool, or capture less "
         "(--angles)")};
   }
-  std::string nearest = "the machine file has no bodies: not looked for";
-  if (*clearance) {
-    nearest = fmt::format("{:.1f} mm between {} and {}, at {:.4g} deg", (*clearance)->distance,
-                          (*clearance)->first, (*clearance)->second,
-                          as_stated((*clearance)->parameter * kDegPerRad));
-  }
-  row("nearest approach", nearest);
+  const auto nearest_in = [&](const Wording& w) {
+    if (!*clearance) return w("the machine file has no bodies: not looked for");
+    const double at = as_stated((*clearance)->parameter * kDegPerRad);
+    return w("{0} between {1} and {2}, at {3} deg", distance_text((*clearance)->distance, w),
+             w.word((*clearance)->first), w.word((*clearance)->second),
+             w.number(fmt::format("{:.4g}", at)));
+  };
+  rows.add([](const Wording& w) { return w("nearest approach"); }, nearest_in);
   if (const double least_angle = least_angle_at_stem(machine, test, pass);
       least_angle < kBarBesideStem) {
     answer.warnings.push_back(warning(
@@ -174,13 +248,17 @@ std::optional<Diagnostics> add_setup_sheet(MotionAnswer& answer, const SetupShee
                     least_angle * kDegPerRad),
         "capture less (--angles): upright circles are usually run from -20 to 200 deg"));
   }
-  table.note =
-      "The bar is mounted 1.5 mm too long, where the program stops. Travels are those of the pass.";
+  report::MotionTable table = rows.table();
+  constexpr double kMountedLonger = 1.5;  // mm
+  table.note = answer.words(
+      "The bar is mounted {0} too long, where the program stops. Travels are those of the pass.",
+      answer.words.amount(kMountedLonger, "mm"));
   if (*clearance && !(*clearance)->spindle) {
-    table.note += fmt::format(
-        " Without a tool length of {:g} mm or more the spindle is not looked at.", kLeastStem);
+    table.note +=
+        answer.words(" Without a tool length of {0} or more the spindle is not looked at.",
+                     answer.words.amount(kLeastStem, "mm"));
   }
-  answer.page.setup = drawing_of(sheet, pass);
+  answer.page.setup = drawing_of(sheet, pass, answer.words);
   answer.document["setup_sheet"] =
       Document{{"g54_in_table_mm", coordinates(origin)},
                {"capture_deg",
@@ -190,9 +268,9 @@ std::optional<Diagnostics> add_setup_sheet(MotionAnswer& answer, const SetupShee
                {"largest_reading_um", largest * kUmPerMm},
                {"stroke_um", stroke * kUmPerMm},
                {"nearest_mm", *clearance ? std::optional((*clearance)->distance) : std::nullopt},
-               {"nearest", nearest}};
+               {"nearest", nearest_in(Wording())}};
   answer.page.tables.push_back(std::move(table));
-  answer.files["setup.csv"] = std::move(csv);
+  answer.files["setup.csv"] = rows.csv();
   return std::nullopt;
 }
 

@@ -148,9 +148,11 @@ std::optional<Diagnostics> add_bar(MotionAnswer& answer, const MotionWords& word
 void add_program_run(MotionAnswer& answer, const ProgramWords& words, double largest_difference) {
   answer.document["program"] =
       Document{{"file", words.file}, {"largest_difference_um", largest_difference * kUmPerMm}};
-  answer.text += fmt::format("through {}: at most {:.4f} um from analytic samples\n", words.file,
-                             largest_difference * kUmPerMm);
-  answer.page.facts.push_back({"NC program", words.file});
+  const report::Wording& wording = answer.words;
+  answer.text += wording("through {0}: at most {1} {2} from analytic samples", words.file,
+                         shown_um(largest_difference, wording, 4), wording.unit("um")) +
+                 "\n";
+  answer.page.facts.push_back({wording("NC program"), words.file});
 }
 
 }  // namespace frustum::app

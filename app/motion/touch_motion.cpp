@@ -66,12 +66,15 @@ TableMaps scatter_of(const TouchPlan& plan, const MotionSetup& setup,
 
 // A probe has a ball and an artefact, and no bar.
 void name_facts(report::MotionPage& page, const MotionSetup& setup) {
-  std::erase_if(page.facts, [](const auto& fact) { return fact[0] == "Bar longer by"; });
+  const report::Wording& words = setup.words;
+  std::erase_if(page.facts, [&](const auto& fact) { return fact[0] == words("Bar longer by"); });
   for (auto& [name, value] : page.facts) {
-    if (name == "Spindle ball off") name = "Ball of the probe off";
-    if (name == "Table ball off") name = "Artefact off";
+    if (name == words("Spindle ball off")) name = words("Ball of the probe off");
+    if (name == words("Table ball off")) name = words("Artefact off");
   }
-  if (setup.instrument.noise > 0.0) page.facts.push_back({"Bands", "two standard deviations"});
+  if (setup.instrument.noise > 0.0) {
+    page.facts.push_back({words("Bands"), words("two standard deviations")});
+  }
 }
 
 }  // namespace
@@ -103,7 +106,8 @@ Result<MotionAnswer> touch_answer(const TouchWords& words) {
     found.runs = words.repeat;
     found.scatter = scatter_of(*plan, *setup, *exact, words.repeat, found.identified);
   }
-  MotionAnswer answer = answer_of("touch", "Touch-trigger calibration of A and C", *setup);
+  MotionAnswer answer =
+      answer_of("touch", setup->words("Touch-trigger calibration of A and C"), *setup);
   answer.document["axes"] = axes_of(setup->machine, *poses);
   add_lobes(answer, *lobes);
   name_facts(answer.page, *setup);

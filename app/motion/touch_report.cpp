@@ -19,8 +19,9 @@ using instruments::TableMaps;
 using instruments::TablePosition;
 using instruments::TouchPlan;
 
-constexpr std::array<const char*, 6> kComponents{"x um",   "y um",   "z um",
-                                                 "a urad", "b urad", "c urad"};
+using report::Wording;
+
+constexpr std::array<const char*, 6> kComponents{"x", "y", "z", "a", "b", "c"};
 constexpr std::array<char, 6> kDirections{'X', 'Y', 'Z', 'A', 'B', 'C'};
 
 double shown(const ErrorVector& v, std::size_t k) {
@@ -67,47 +68,54 @@ ErrorVector over_turn(const std::vector<ErrorVector>& row) {
 // Rows of a table: which map, its position, six values.
 using Rows = std::vector<std::vector<std::string>>;
 
-void add_row(Rows& rows, std::string map, std::string position, const ErrorVector& v) {
+void add_row(Rows& rows, std::string map, std::string position, const ErrorVector& v,
+             const Wording& words) {
   std::vector<std::string> cells{std::move(map), std::move(position)};
   for (std::size_t k = 0; k < kComponents.size(); ++k) {
-    cells.push_back(fixed_decimal(shown(v, k), 3));
+    cells.push_back(k < 3 ? shown_um(v[static_cast<Eigen::Index>(k)], words)
+                          : words.number(fixed_decimal(shown(v, k), 3)));
   }
   rows.push_back(std::move(cells));
 }
 
-Rows value_rows(const TouchPlan& plan, const TableMaps& maps) {
+Rows value_rows(const TouchPlan& plan, const TableMaps& maps, const Wording& words) {
   Rows rows;
   const auto tilts = positions_of(plan.tilts), turns = positions_of(plan.turns);
   for (std::size_t i = 0; i < tilts.size(); ++i) {
-    add_row(rows, "A", fmt::format("A {:g}", tilts[i]), maps.tilt[i]);
+    add_row(rows, "A", "A " + words.general(tilts[i]), maps.tilt[i], words);
   }
   for (std::size_t i = 0; i < tilts.size(); ++i) {
     for (std::size_t j = 0; j < turns.size(); ++j) {
-      add_row(rows, "C", fmt::format("A {:g}, C {:g}", tilts[i], turns[j]), maps.turn[i][j]);
+      add_row(rows, "C", "A " + words.general(tilts[i]) + ", C " + words.general(turns[j]),
+              maps.turn[i][j], words);
     }
   }
   return rows;
 }
 
 // Of C the root mean square over its positions.
-Rows spread_rows(const TouchPlan& plan, const TableMaps& maps) {
+Rows spread_rows(const TouchPlan& plan, const TableMaps& maps, const Wording& words) {
   Rows rows;
   const auto tilts = positions_of(plan.tilts);
   for (std::size_t i = 0; i < tilts.size(); ++i) {
-    add_row(rows, "A", fmt::format("A {:g}", tilts[i]), maps.tilt[i]);
+    add_row(rows, "A", "A " + words.general(tilts[i]), maps.tilt[i], words);
   }
   for (std::size_t i = 0; i < tilts.size(); ++i) {
-    add_row(rows, "C", fmt::format("A {:g}, all C", tilts[i]), over_turn(maps.turn[i]));
+    add_row(rows, "C", words("A {0}, all C", words.general(tilts[i])), over_turn(maps.turn[i]),
+            words);
   }
   return rows;
 }
 
 void add_table(MotionAnswer& answer, const std::string& heading, const Rows& rows) {
-  std::vector<std::string> headings{"map", "deg"};
-  report::MotionTable page{.heading = heading, .columns = {"map", "position, deg"}, .rows = rows};
-  for (const char* each : kComponents) {
-    headings.emplace_back(each);
-    page.columns.push_back(std::string(">") + each);
+  const Wording& words = answer.words;
+  std::vector<std::string> headings{words("map"), "deg"};
+  report::MotionTable page{
+      .heading = heading, .columns = {words("map"), words("position, deg")}, .rows = rows};
+  for (std::size_t k = 0; k < kComponents.size(); ++k) {
+    headings.push_back(std::string(kComponents.at(k)) + " " +
+                       std::string(words.unit(k < 3 ? "um" : "urad")));
+    page.columns.push_back(">" + headings.back());
   }
   TextTable table(headings);
   for (const auto& row : rows) table.row(row);
@@ -119,35 +127,38 @@ void add_table(MotionAnswer& answer, const std::string& heading, const Rows& row
 
 report::TraceLine line_of(std::string name, std::vector<double> along,
                           const std::vector<ErrorVector>& values,
-                          const std::vector<ErrorVector>& sd, std::size_t k) {
+                          const std::vector<ErrorVector>& sd, std::size_t k, const Wording& words) {
   report::TraceLine line{.name = std::move(name), .along = std::move(along), .dots = true};
+  const char* const unit = k < 3 ? "um" : "urad";
   for (std::size_t i = 0; i < values.size(); ++i) {
-    line.value.push_back(shown(values[i], k));
-    line.half_width.push_back(2.0 * shown(sd[i], k));
+    line.value.push_back(words.shown(shown(values[i], k), unit));
+    line.half_width.push_back(words.shown(2.0 * shown(sd[i], k), unit));
   }
   return line;
 }
 
 void draw(MotionAnswer& answer, const TouchPlan& plan, const TouchFindings& found) {
+  const Wording& words = answer.words;
   const auto tilts = positions_of(plan.tilts), turns = positions_of(plan.turns);
   for (const std::size_t from : {std::size_t{0}, std::size_t{3}}) {
     report::TraceChart chart{
-        .title = from == 0 ? "Errors of A, translations" : "Errors of A, rotations",
+        .title = from == 0 ? words("Errors of A, translations") : words("Errors of A, rotations"),
         .along_title = "A, °",
-        .value_title = from == 0 ? "µm" : "µrad"};
+        .value_title = from == 0 ? words.symbol("um") : "µrad"};
     for (std::size_t k = from; k < from + 3; ++k) {
       chart.lines.push_back(line_of(fmt::format("E{}A", kDirections.at(k)), tilts,
-                                    found.identified.tilt, found.sd.tilt, k));
+                                    found.identified.tilt, found.sd.tilt, k, words));
     }
     answer.page.charts.push_back(std::move(chart));
   }
   for (std::size_t k = 0; k < kDirections.size(); ++k) {
-    report::TraceChart chart{.title = fmt::format("E{}C, at each position of A", kDirections.at(k)),
-                             .along_title = "C, °",
-                             .value_title = k < 3 ? "µm" : "µrad"};
+    report::TraceChart chart{
+        .title = words("{0}, at each position of A", fmt::format("E{}C", kDirections.at(k))),
+        .along_title = "C, °",
+        .value_title = k < 3 ? words.symbol("um") : "µrad"};
     for (std::size_t i = 0; i < tilts.size(); ++i) {
-      chart.lines.push_back(line_of(fmt::format("A {:g}°", tilts[i]), turns,
-                                    found.identified.turn[i], found.sd.turn[i], k));
+      chart.lines.push_back(line_of("A " + words.general(tilts[i]) + "°", turns,
+                                    found.identified.turn[i], found.sd.turn[i], k, words));
     }
     answer.page.charts.push_back(std::move(chart));
   }
@@ -235,14 +246,16 @@ void add_touches(MotionAnswer& answer, const TouchPlan& plan, const std::vector<
   doc["plan"] = planned;  // A, C, point, each counted from 0
   doc["reading_um"] = in_um(readings);
   answer.files["touches.csv"] = touch_csv(plan, readings);
-  answer.text += fmt::format("{} touches of three columns at {} positions of A and {} of C\n",
-                             plan.touches.size(), plan.tilts.size(), plan.turns.size());
+  answer.text += answer.words("{0} touches of three columns at {1} positions of A and {2} of C",
+                              plan.touches.size(), plan.tilts.size(), plan.turns.size()) +
+                 "\n";
 }
 
 }  // namespace
 
 void add_touch_findings(MotionAnswer& answer, const kinematics::Machine& machine,
                         const TouchPlan& plan, const TouchFindings& found) {
+  const Wording& words = answer.words;
   Document& doc = answer.document;
   doc["A_deg"] = positions_of(plan.tilts);
   doc["C_deg"] = positions_of(plan.turns);
@@ -250,32 +263,35 @@ void add_touch_findings(MotionAnswer& answer, const kinematics::Machine& machine
   doc["identified"] = document_of(found.identified);
   doc["sd"] = document_of(found.sd);
 
-  add_table(answer, "Identified errors", value_rows(plan, found.identified));
+  add_table(answer, words("Identified errors"), value_rows(plan, found.identified, words));
   const bool noisy = found.sd.tilt.front().maxCoeff() > 0.0;
   if (noisy) {
-    add_table(answer, "Standard deviation, propagated from the noise of a touch",
-              spread_rows(plan, found.sd));
+    add_table(answer, words("Standard deviation, propagated from the noise of a touch"),
+              spread_rows(plan, found.sd, words));
   }
   if (found.scatter) {
     doc["repeat"] = static_cast<std::uint64_t>(found.runs);
     doc["scatter"] = document_of(*found.scatter);
-    add_table(answer, fmt::format("Standard deviation of {} calibrations", found.runs),
-              spread_rows(plan, *found.scatter));
+    add_table(answer, words("Standard deviation of {0} calibrations", found.runs),
+              spread_rows(plan, *found.scatter, words));
   }
   if (found.visible) {
     const auto [um, urad] = largest_difference(found.identified, *found.visible);
     doc["visible"] = document_of(*found.visible);
     doc["largest_difference"] = Document{{"um", um}, {"urad", urad}};
-    answer.text += fmt::format(
-        "\nlargest difference from the machine's own errors of A and C: {} um, {} urad\n",
-        fixed_decimal(um, 4), fixed_decimal(urad, 4));
+    answer.text +=
+        "\n" +
+        words("largest difference from the machine's own errors of A and C: {0} {2}, {1} urad",
+              shown_um(um / kUmPerMm, words, 4), words.number(fixed_decimal(urad, 4)),
+              words.unit("um")) +
+        "\n";
   }
-  constexpr const char* kGauge =
+  const std::string gauge = words(
       "Zero at A = C = 0: the error there is not seen, its part across the axis of C turns with "
       "the table. Errors of the linear axes and of the ball in the spindle appear as errors of A "
-      "and C.";
-  answer.text += fmt::format("{}\n", kGauge);
-  answer.page.tables.front().note = kGauge;
+      "and C.");
+  answer.text += gauge + "\n";
+  answer.page.tables.front().note = gauge;
   draw(answer, plan, found);
   answer.files["errors.toml"] = error_file(machine, plan, found.identified);
 }

@@ -72,6 +72,17 @@ Result<CircleTraceWords> reading_words(const TraceWords& words) {
   return reading;
 }
 
+// Of measured readings: the first line of the text, and the title of the page.
+MotionAnswer trace_answer_of(const char* test, const TraceWords& words, const std::string& line,
+                             const std::string& title) {
+  MotionAnswer answer{.document = trace_head(test, words),
+                      .text = line + "\n",
+                      .words = report::Wording(words.style)};
+  answer.page.style = words.style;
+  answer.page.title = title;
+  return answer;
+}
+
 // Which terms of the circle the trace tells.
 void add_told_terms(MotionAnswer& answer, const CircleTraces& all) {
   std::vector<std::string> told, not_told;
@@ -88,12 +99,15 @@ void add_told_terms(MotionAnswer& answer, const CircleTraces& all) {
   }
   answer.document["told"] = told;
   answer.document["not_told"] = not_told;
+  for (auto* names : {&told, &not_told}) {
+    for (std::string& each : *names) each = answer.words.word(each);
+  }
   answer.page.told = told;
   answer.page.not_told = not_told;
   if (!not_told.empty()) {
-    answer.text += "not told by these arcs:";
-    for (const std::string& each : not_told) answer.text += " " + each;
-    answer.text += "\n";
+    answer.text +=
+        answer.words("not told by these arcs: {0}", fmt::format("{}", fmt::join(not_told, " "))) +
+        "\n";
   }
 }
 
@@ -103,13 +117,14 @@ Result<MotionAnswer> circle_trace(const TraceWords& words) {
   const std::vector<std::filesystem::path> files(words.files.begin(), words.files.end());
   const auto all = read_circle_traces(files, *reading);
   if (!all) return all.error();
-  MotionAnswer answer{.document = trace_head("trace", words),
-                      .text = fmt::format("Measured circle in {}, bar of {:g} mm\n",
-                                          name_of(all->plane), all->length)};
+  const report::Wording wording(words.style);
+  const std::string bar = wording.amount(all->length, "mm");
+  MotionAnswer answer = trace_answer_of(
+      "trace", words, wording("Measured circle in {0}, bar of {1}", name_of(all->plane), bar),
+      wording("Measured circle in {0}", name_of(all->plane)));
   answer.document["plane"] = name_of(all->plane);
   answer.document["length_mm"] = all->length;
-  answer.page.title = fmt::format("Measured circle in {}", name_of(all->plane));
-  answer.page.facts = {{"Bar", fmt::format("{:g} mm", all->length)}};
+  answer.page.facts = {{wording("Bar"), bar}};
   if (all->feed) answer.document["feed_mm_min"] = *all->feed;
   if (all->temperature) answer.document["temperature_degC"] = *all->temperature;
   for (const auto& trace : all->traces) {
@@ -131,9 +146,8 @@ Result<MotionAnswer> line_trace(const TraceWords& words) {
   if (!letter) return unknown_word("--axis", words.axis, {"X", "Y", "Z", "A", "B", "C"});
   const auto line = instruments::read_line_trace(words.files.front());
   if (!line) return line.error();
-  MotionAnswer answer{.document = trace_head("line", words),
-                      .text = fmt::format("Measured line along {}\n", words.axis)};
-  answer.page.title = fmt::format("Measured line along {}", words.axis);
+  const std::string title = report::Wording(words.style)("Measured line along {0}", words.axis);
+  MotionAnswer answer = trace_answer_of("line", words, title, title);
   answer.document["axis"] = words.axis;
   answer.document["targets_mm"] = line->targets;
   if (auto problem = add_positioning(answer, line->targets, line->up, line->down)) {
@@ -173,11 +187,12 @@ Result<MotionAnswer> touch_trace(const TraceWords& words) {
   const auto readings =
       instruments::read_touches(words.files.front(), plan, instruments::TouchProbe{}.ball_radius);
   if (!readings) return readings.error();
-  MotionAnswer answer{.document = trace_head("touch", words),
-                      .text = fmt::format("Measured touches on {}\n", setup.machine.name())};
+  const report::Wording wording(words.style);
+  MotionAnswer answer =
+      trace_answer_of("touch", words, wording("Measured touches on {0}", setup.machine.name()),
+                      wording("Measured touch-trigger calibration of A and C"));
   answer.document["machine"] = setup.machine.name();
-  answer.page.title = "Measured touch-trigger calibration of A and C";
-  answer.page.facts = {{"Machine", setup.machine.title()}};
+  answer.page.facts = {{wording("Machine"), setup.machine.title()}};
   const double noise = setup.instrument.noise / 2.0;
   answer.document["noise_um"] = noise * kUmPerMm;
   add_touch_findings(answer, setup.machine, plan,
@@ -218,12 +233,12 @@ Result<MotionAnswer> ball_trace(const TraceWords& words) {
   if (!identified) return identified.error();
   auto sd = instruments::deviations_of_balls(plan, balls, setup.instrument.noise);
   if (!sd) return sd.error();
-  MotionAnswer answer{
-      .document = trace_head("chase", words),
-      .text = fmt::format("R-tests with {} balls on {}\n", balls.size(), setup.machine.name())};
+  const report::Wording wording(words.style);
+  MotionAnswer answer = trace_answer_of(
+      "chase", words, wording("R-tests with {0} balls on {1}", balls.size(), setup.machine.name()),
+      wording("Errors of A and C from R-tests"));
   answer.document["machine"] = setup.machine.name();
-  answer.page.title = "Errors of A and C from R-tests";
-  answer.page.facts = {{"Machine", setup.machine.title()}};
+  answer.page.facts = {{wording("Machine"), setup.machine.title()}};
   answer.document["noise_um"] = setup.instrument.noise * kUmPerMm;
   add_touch_findings(answer, setup.machine, plan,
                      {.identified = *std::move(identified), .sd = *std::move(sd)});

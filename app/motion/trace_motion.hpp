@@ -21,6 +21,7 @@ struct TraceWords : AnswerOptions {
   std::string noise{};    // of touches, two standard deviations; of R-tests one
   std::string balls{};    // of R-tests: "x,y,z;x,y,z;x,y,z"
   std::string out{};
+  report::ReportStyle style{};
 };
 
 [[nodiscard]] Result<MotionAnswer> trace_answer(const TraceWords& words);

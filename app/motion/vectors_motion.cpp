@@ -11,7 +11,7 @@ namespace {
 
 using kinematics::AxisVectors;
 
-constexpr const char* kSigns =
+constexpr report::Phrase kSigns(
     "Signs: a direction is that of +q by the right-hand rule. +q of an axis of the head turns the "
     "tool about it; +q of an axis of the table turns the table the other way (ISO 841).\n"
     "\n"
@@ -21,12 +21,15 @@ constexpr const char* kSigns =
     "      | /\n"
     "      |/________ X         A control whose table is zero where it stands at q = 0 needs no\n"
     "     /                     more than these: along an axis its point is free.\n"
-    "    Y\n";
+    "    Y\n");
 
-std::string vector_text(const Vec3& v, double factor, int decimals) {
-  return fmt::format("{}, {}, {}", fixed_decimal(v.x() * factor, decimals),
-                     fixed_decimal(v.y() * factor, decimals),
-                     fixed_decimal(v.z() * factor, decimals));
+// Of a vector in the shown unit of `unit`, which its numbers times `factor` are in.
+std::string vector_text(const Vec3& v, double factor, const char* unit, int decimals,
+                        const report::Wording& words) {
+  const auto one = [&](double value) {
+    return words.number(fixed_decimal(words.shown(value * factor, unit), decimals));
+  };
+  return one(v.x()) + between(words) + one(v.y()) + between(words) + one(v.z());
 }
 
 // "EXC", not "EX0C" or "dx_AY".
@@ -45,7 +48,8 @@ Result<MotionAnswer> vectors_answer(const MotionWords& words) {
     return error("no-rotary-axis"_id,
                  fmt::format("machine {} has no rotary axes", setup->machine.name()));
   }
-  MotionAnswer answer = answer_of("vectors", "Kinematic vectors of the rotary axes", *setup);
+  MotionAnswer answer =
+      answer_of("vectors", setup->words("Kinematic vectors of the rotary axes"), *setup);
   for (const kinematics::ErrorEntry& entry : setup->entries) {
     if (!is_of_motion(entry)) continue;
     answer.warnings.push_back(warning(
@@ -57,10 +61,16 @@ Result<MotionAnswer> vectors_answer(const MotionWords& words) {
         "a table of the control for each axis takes errors of motion; frustum identify states "
         "location errors"));
   }
-  TextTable table({"axis", "of the", "point mm", "off by um", "direction", "off by urad"});
-  report::MotionTable shown{
-      .heading = "Lines of the rotary axes, all axes at zero",
-      .columns = {"axis", "of the", "point mm", "off by um", "direction", "off by urad"}};
+  const report::Wording& wording = answer.words;
+  const std::vector<std::string> columns{wording("axis"),
+                                         wording("of the"),
+                                         wording("point {0}", wording.unit("mm")),
+                                         wording("off by {0}", wording.unit("um")),
+                                         wording("direction"),
+                                         wording("off by {0}", "urad")};
+  TextTable table(columns);
+  report::MotionTable shown{.heading = wording("Lines of the rotary axes, all axes at zero"),
+                            .columns = columns};
   Document axes;
   std::string csv = "axis,side,x_mm,y_mm,z_mm,i,j,k,dx_um,dy_um,dz_um,di_urad,dj_urad,dk_urad\n";
   for (const AxisVectors& each : vectors) {
@@ -68,11 +78,11 @@ Result<MotionAnswer> vectors_answer(const MotionWords& words) {
     const Vec3 off = each.actual.point - each.nominal.point;
     const Vec3 turned = each.actual.direction - each.nominal.direction;
     const std::vector<std::string> cells{name,
-                                         side,
-                                         vector_text(each.actual.point, 1.0, 4),
-                                         vector_text(off, kUmPerMm, 2),
-                                         vector_text(each.actual.direction, 1.0, 7),
-                                         vector_text(turned, kUradPerRad, 2)};
+                                         wording.word(side),
+                                         vector_text(each.actual.point, 1.0, "mm", 4, wording),
+                                         vector_text(off, kUmPerMm, "um", 2, wording),
+                                         vector_text(each.actual.direction, 1.0, "", 7, wording),
+                                         vector_text(turned, kUradPerRad, "urad", 2, wording)};
     table.row(cells);
     shown.rows.push_back(cells);
     axes[name] = Document{{"side", side},
@@ -91,11 +101,11 @@ Result<MotionAnswer> vectors_answer(const MotionWords& words) {
     }
     csv += "\n";
   }
-  shown.note = "Between the axes of a side: from_previous_mm of the document.";
+  shown.note = wording("Between the axes of a side: from_previous_mm of the document.");
   answer.page.tables.push_back(std::move(shown));
   answer.document["vectors"] = axes;
   answer.files["vectors.csv"] = std::move(csv);
-  answer.text += table.text() + "\n" + kSigns;
+  answer.text += table.text() + "\n" + wording(kSigns);
   return answer;
 }
 

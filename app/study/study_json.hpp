@@ -7,11 +7,13 @@
 #include <string>
 
 #include "app/study/study_file.hpp"
+#include "report/wording.hpp"
 #include "studies/answers/study_result.hpp"
 
 namespace frustum::app {
 
 [[nodiscard]] std::string study_json(const studies::StudyResult& result);
-[[nodiscard]] std::string study_text(const studies::StudyResult& result);
+[[nodiscard]] std::string study_text(const studies::StudyResult& result,
+                                     const report::Wording& words = report::Wording());
 
 }  // namespace frustum::app

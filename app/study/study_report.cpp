@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "app/study/sampler.hpp"
-#include "core/counted.hpp"
-#include "report/number_text.hpp"
 #include "report/page/study_page.hpp"
 #include "studies/statistics/conformity_risk.hpp"
 #include "studies/statistics/order_statistics.hpp"
@@ -17,23 +16,35 @@ namespace frustum::app {
 namespace {
 
 using report::StudyPage;
+using report::Wording;
 using studies::StudyResult;
 
 // More points than these nobody tells apart on a page.
 constexpr std::size_t kDistributionPoints = 400;
 constexpr std::size_t kScatterPoints = 1500;
 
-std::string number(double value) { return fmt::format("{:.4g}", value); }
-
-std::string interval(const studies::Interval& ci) {
-  if (!ci.lo || !ci.hi) return "";
-  return fmt::format(" ({} .. {})", number(*ci.lo), number(*ci.hi));
+std::string number(double value, const Wording& words) {
+  return words.number(fmt::format("{:.4g}", value));
 }
 
-std::string proportion(const studies::Proportion& p) {
-  return fmt::format("{:.2f} % ({:.2f} .. {:.2f})", 100.0 * p.p, 100.0 * p.ci95[0],
-                     100.0 * p.ci95[1]);
+std::string proportion(const studies::Proportion& p, const Wording& words) {
+  return words.number(fmt::format("{:.2f} % ({:.2f} .. {:.2f})", 100.0 * p.p, 100.0 * p.ci95[0],
+                                  100.0 * p.ci95[1]));
 }
+
+// Numbers in the shown unit of one characteristic; without a unit as they are.
+struct Numbers {
+  const Wording& words;
+  std::string unit{};
+
+  [[nodiscard]] std::string operator()(double value) const {
+    return number(words.shown(value, unit), words);
+  }
+  [[nodiscard]] std::string operator()(const studies::Interval& ci) const {
+    if (!ci.lo || !ci.hi) return "";
+    return fmt::format(" ({} .. {})", (*this)(*ci.lo), (*this)(*ci.hi));
+  }
+};
 
 const studies::QuantileEstimate* at(const studies::Summary& summary, double p) {
   const auto found = std::ranges::find(summary.quantiles, p, &studies::QuantileEstimate::p);
@@ -79,7 +90,7 @@ report::RiskCurve risk_of(const std::vector<double>& values, double u,
 
 void add_characteristic(StudyPage& page, const StudyFile& study, const StudyModel& model,
                         std::size_t index, const studies::CharacteristicResult& c,
-                        const std::vector<double>& values) {
+                        const std::vector<double>& values, const Wording& words) {
   report::StudyPageCharacteristic shown{.name = c.name, .unit = c.unit};
   const auto *low = at(c.summary, 0.05), *q1 = at(c.summary, 0.25), *median = at(c.summary, 0.5),
              *q3 = at(c.summary, 0.75), *high = at(c.summary, 0.95);
@@ -88,9 +99,10 @@ void add_characteristic(StudyPage& page, const StudyFile& study, const StudyMode
   }
   shown.box = {c.name,    c.summary.min, q1->value,   median->value,
                q3->value, c.summary.max, limits_of(c)};
-  shown.row = {number(low->value), number(median->value) + interval(median->ci95),
-               number(high->value), c.limit ? (c.both_sides ? "±" : "") + number(*c.limit) : "",
-               c.conform ? proportion(*c.conform) : ""};
+  const Numbers text{words, c.unit};
+  shown.row = {text(low->value), text(median->value) + text(median->ci95), text(high->value),
+               c.limit ? (c.both_sides ? "±" : "") + text(*c.limit) : "",
+               c.conform ? proportion(*c.conform, words) : ""};
   shown.distribution = distribution_of(values, c);
   const double u = study.measurement.u && !study.characteristics[index].angular
                        ? *study.measurement.u
@@ -107,14 +119,21 @@ void add_characteristic(StudyPage& page, const StudyFile& study, const StudyMode
 }
 
 report::ScatterSeries series_of(const studies::CharacteristicResult& c,
-                                const std::vector<double>& values) {
-  return {c.name + ", " + report::unit_symbol(c.unit),
-          {values.begin(),
-           values.begin() + static_cast<std::ptrdiff_t>(std::min(values.size(), kScatterPoints))},
-          limits_of(c)};
+                                const std::vector<double>& values, const Wording& words) {
+  report::ScatterSeries series{
+      c.name + ", " + words.symbol(c.unit),
+      {values.begin(),
+       values.begin() + static_cast<std::ptrdiff_t>(std::min(values.size(), kScatterPoints))},
+      limits_of(c)};
+  for (auto* all : {&series.values, &series.limits}) {
+    for (double& each : *all) each = words.shown(each, c.unit);
+  }
+  return series;
 }
 
-void add_scatter(StudyPage& page, const StudyResult& result, const SampleColumns& samples) {
+std::optional<std::array<report::ScatterSeries, 2>> scatter_of(const StudyResult& result,
+                                                               const SampleColumns& samples,
+                                                               const Wording& words) {
   std::vector<report::ScatterSeries> series;
   for (const auto& c : result.characteristics) {
     const auto* values = samples.find(kCharacteristics + c.name);
@@ -127,44 +146,53 @@ void add_scatter(StudyPage& page, const StudyResult& result, const SampleColumns
         })) {
       continue;
     }
-    series.push_back(series_of(c, *values));
+    series.push_back(series_of(c, *values, words));
   }
-  if (series.size() == 2) page.scatter = {series[0], series[1]};
+  if (series.size() < 2) return std::nullopt;
+  return {{series[0], series[1]}};
 }
 
 // What every machine makes, runs or is asked for.
-std::array<std::string, 2> made_of(const StudyFile& study) {
-  if (study.job) return {"Job", study.job->piece.title};
-  if (study.motion) return {"Motion test", study.motion->file.filename().string()};
+std::array<std::string, 2> made_of(const StudyFile& study, const Wording& words) {
+  if (study.job) return {words("Job"), study.job->piece.title};
+  if (study.motion) return {words("Motion test"), study.motion->file.filename().string()};
   const std::string& axes = study.volumetric->axes;
-  return {"One pose", axes.empty() ? "home" : axes};
+  return {words("One pose"), axes.empty() ? words("home") : axes};
 }
 
-void add_facts(StudyPage& page, const StudyFile& study, const StudyResult& result) {
-  std::string engine = result.engine.name;
+void add_facts(StudyPage& page, const StudyFile& study, const StudyResult& result,
+               const Wording& words) {
+  std::string engine = words.word(result.engine.name);
   if (result.engine.name == "linear") {
-    engine += fmt::format(", within {:.3f} µm of whole trials (by {} controls, statistically)",
-                          result.engine.bound_um, result.engine.controls);
+    const std::string bound =
+        words.fixed(words.shown(result.engine.bound_um, "um"), 3) + " " + words.symbol("um");
+    engine += words(", within {0} of whole trials (by {1} controls, statistically)", bound,
+                    result.engine.controls);
   } else if (!result.engine.reason.empty()) {
-    engine += ": " + result.engine.reason;
+    engine = words("{0}: {1}", engine, result.engine.reason);
   }
-  page.facts = {{"Machine", study.machine().name()},
-                {"Machines drawn", fmt::format("{}", result.samples)},
-                {"Seed and scheme", fmt::format("{}, {}", result.seed, result.scheme)},
-                {"Engine", engine},
-                made_of(study)};
+  page.facts = {
+      {words("Machine"), study.machine().name()},
+      {words("Machines drawn"), fmt::format("{}", result.samples)},
+      {words("Seed and scheme"), fmt::format("{}, {}", result.seed, words.word(result.scheme))},
+      {words("Engine"), engine},
+      made_of(study, words)};
   if (!result.failed.empty()) {
+    const auto& first = result.failed.front();
     page.remarks.push_back(
-        fmt::format("{} failed, counted as not conforming; the "
-                    "first, {}: {}",
-                    counted(result.failed.size(), "draw"), result.failed.front().draw,
-                    result.failed.front().message));
+        result.failed.size() == 1
+            ? words("1 draw failed, counted as not conforming; the first, {0}: {1}", first.draw,
+                    first.message)
+            : words("{0} draws failed, counted as not conforming; the first, {1}: {2}",
+                    result.failed.size(), first.draw, first.message));
   }
-  for (const std::string& what : result.not_reached) page.remarks.push_back("Not reached: " + what);
-  if (result.joint) page.all_conform = proportion(*result.joint);
+  for (const std::string& what : result.not_reached) {
+    page.remarks.push_back(words("Not reached: {0}", what));
+  }
+  if (result.joint) page.all_conform = proportion(*result.joint, words);
 }
 
-void add_shares(StudyPage& page, const StudyResult& result) {
+void add_shares(StudyPage& page, const StudyResult& result, const Wording& words) {
   if (!result.shares.empty()) {
     const studies::SharesResult& of = result.shares.front();
     page.share_characteristic = of.characteristic;
@@ -176,25 +204,30 @@ void add_shares(StudyPage& page, const StudyResult& result) {
   }
   if (const auto& a = result.allocation) {
     for (std::size_t g = 0; g < a->groups.size(); ++g) {
-      page.allocation.push_back({a->groups[g], fmt::format("{:.3f}", a->factors[g])});
+      page.allocation.push_back({a->groups[g], words.fixed(a->factors[g], 3)});
     }
-    page.allocation_text = fmt::format(
-        "So that {:g} % of the parts keep {}: cost {:.4g}. One factor for all errors would be "
-        "{:.4f}{}, at a cost of {:.4g}.",
-        100.0 * a->probability, a->characteristic, a->cost, a->equal_factor,
-        interval(a->equal_factor_ci95), a->equal_cost);
+    page.allocation_text = words(
+        "So that {0} % of the parts keep {1}: cost {2}. One factor for all errors would be {3}, at "
+        "a cost of {4}.",
+        words.general(100.0 * a->probability), a->characteristic, number(a->cost, words),
+        words.number(fmt::format("{:.4f}", a->equal_factor)) + Numbers{words}(a->equal_factor_ci95),
+        number(a->equal_cost, words));
   }
 }
 
 // Of each quantity one map a place of the part, all in the same shades: inclination along, cone
 // angle down.
-void add_maps(StudyPage& page, const StudyResult& result) {
-  const auto place = [](const studies::MapRow& row) {
-    return fmt::format("{:g}, {:g}, {:g} mm", row.center_mm[0], row.center_mm[1], row.center_mm[2]);
+std::vector<report::HeatMap> maps_of(const StudyResult& result, const Wording& words) {
+  std::vector<report::HeatMap> maps;
+  const auto place = [&](const studies::MapRow& row) {
+    const auto mm = [&](double value) { return words.general(words.shown(value, "mm")); };
+    const char* const between = words.decimal_sign() == ',' ? "; " : ", ";
+    return mm(row.center_mm[0]) + between + mm(row.center_mm[1]) + between + mm(row.center_mm[2]) +
+           " " + words.symbol("mm");
   };
-  const auto names = [](const std::vector<double>& angles) {
+  const auto names = [&](const std::vector<double>& angles) {
     std::vector<std::string> texts;
-    for (const double angle : angles) texts.push_back(fmt::format("{:g}°", angle));
+    for (const double angle : angles) texts.push_back(words.general(angle) + "°");
     return texts;
   };
   std::vector<double> cones, inclinations;
@@ -207,9 +240,9 @@ void add_maps(StudyPage& page, const StudyResult& result) {
     if (std::ranges::find(places, place(row)) == places.end()) places.push_back(place(row));
   }
   const auto map_at = [&](const std::string& title, const std::string& at_place, auto value) {
-    report::HeatMap map{title + ", part at " + at_place,
-                        "cone half angle",
-                        "inclination",
+    report::HeatMap map{words("{0}, part at {1}", title, at_place),
+                        words("cone half angle"),
+                        words("inclination"),
                         names(cones),
                         names(inclinations),
                         {}};
@@ -228,39 +261,42 @@ void add_maps(StudyPage& page, const StudyResult& result) {
     return map;
   };
   const auto add = [&](const std::string& title, auto value) {
-    const std::size_t first = page.maps.size();
+    const std::size_t first = maps.size();
     std::optional<std::array<double, 2>> shades;
     for (const std::string& at_place : places) {
-      page.maps.push_back(map_at(title, at_place, value));
-      const auto range = report::range_of(page.maps.back());
+      maps.push_back(map_at(title, at_place, value));
+      const auto range = report::range_of(maps.back());
       if (!range) continue;
       if (!shades) shades = range;
       shades = {std::min((*shades)[0], (*range)[0]), std::max((*shades)[1], (*range)[1])};
     }
-    for (std::size_t i = first; i < page.maps.size(); ++i) page.maps[i].shades = shades;
+    for (std::size_t i = first; i < maps.size(); ++i) maps[i].shades = shades;
   };
-  add("Signal, rms µm", [](const studies::MapRow& row) { return row.rms_um; });
-  add("Errors that show", [](const studies::MapRow& row) { return double(row.shown); });
-  add("Directions", [](const studies::MapRow& row) { return row.directions; });
+  add(words("Signal, rms {0}", words.symbol("um")),
+      [&](const studies::MapRow& row) { return words.shown(row.rms_um, "um"); });
+  add(words("Errors that show"), [](const studies::MapRow& row) { return double(row.shown); });
+  add(words("Directions"), [](const studies::MapRow& row) { return row.directions; });
+  return maps;
 }
 
 }  // namespace
 
 std::string study_report(const StudyFile& study, const StudyModel& model, const StudyResult& result,
-                         const SampleColumns& samples) {
-  StudyPage page;
-  page.title = result.title;
-  add_facts(page, study, result);
+                         const SampleColumns& samples, const Wording& words) {
+  StudyPage page{.style = words.style(), .title = result.title};
+  add_facts(page, study, result, words);
   for (std::size_t i = 0; i < result.characteristics.size(); ++i) {
     const auto& c = result.characteristics[i];
     const auto* values = samples.find(kCharacteristics + c.name);
     if (values != nullptr && !values->empty()) {
-      add_characteristic(page, study, model, i, c, *values);
+      add_characteristic(page, study, model, i, c, *values, words);
     }
   }
-  add_scatter(page, result, samples);
-  add_shares(page, result);
-  add_maps(page, result);
+  page.scatter = scatter_of(result, samples, Wording());
+  page.shown_scatter = scatter_of(result, samples, words);
+  add_shares(page, result, words);
+  page.maps = maps_of(result, Wording());
+  page.shown_maps = maps_of(result, words);
   return report::study_html(page);
 }
 

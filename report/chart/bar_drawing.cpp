@@ -20,7 +20,7 @@ constexpr double kBall = 6.0, kHead = 9.0;     // of balls and of the heads of a
 // Coordinates of the table to the right and upward.
 struct SheetAxes {
   int right = 0, up = 1;
-  const char* name = "";
+  Phrase name;
   const char* right_name = "";
   const char* up_name = "";
 };
@@ -54,8 +54,11 @@ Flat convex_hull(Flat points) {
 
 class View {
  public:
-  View(const BarDrawing& drawing, const SheetAxes& axes)
-      : drawing_(drawing), axes_(axes), svg_(kSide, kSide, drawing.title + ", " + axes.name) {
+  View(const BarDrawing& drawing, const SheetAxes& axes, const Wording& words)
+      : drawing_(drawing),
+        axes_(axes),
+        words_(words),
+        svg_(kSide, kSide, drawing.title + ", " + words(axes.name)) {
     // Both views have one scale: that of the largest side of set-up and table.
     Vec3 low = drawing.table_ball, high = low;
     const auto include = [&](const Vec3& p) {
@@ -94,18 +97,22 @@ class View {
     draw_scale();
     return fmt::format(
         "<figure><figcaption><b>{}</b><span class=\"scale\">{}</span></figcaption>\n{}</figure>\n",
-        html_text(axes_.name), html_text(said()), svg_.html());
+        html_text(words_(axes_.name)), html_text(said()), svg_.html());
   }
 
  private:
   [[nodiscard]] SvgPoint flat(const Vec3& p) const { return {p[axes_.right], p[axes_.up]}; }
   // What the drawing would have no room for.
   [[nodiscard]] std::string said() const {
-    std::string text = fmt::format("+ G54 at {} {}, {} {} mm; bar {:.5g} mm where it is mounted",
-                                   axes_.right_name, fixed_text(drawing_.offset[axes_.right], 3),
-                                   axes_.up_name, fixed_text(drawing_.offset[axes_.up], 3),
-                                   (drawing_.path.front() - drawing_.table_ball).norm());
-    if (drawing_.tool_length > 0.0) text += fmt::format("; T1 {:g} mm", drawing_.tool_length);
+    const auto place = [&](double mm) {
+      return words_.fixed(words_.shown(mm, "mm"), words_.is_inch() ? 4 : 3);
+    };
+    const double bar = (drawing_.path.front() - drawing_.table_ball).norm();
+    std::string text =
+        words_("+ G54 at {0} {1}, {2} {3} {5}; bar {4} {5} where it is mounted", axes_.right_name,
+               place(drawing_.offset[axes_.right]), axes_.up_name, place(drawing_.offset[axes_.up]),
+               words_.number(fmt::format("{:.5g}", words_.shown(bar, "mm"))), words_.symbol("mm"));
+    if (drawing_.tool_length > 0.0) text += "; T1 " + words_.amount(drawing_.tool_length, "mm");
     return text;
   }
   [[nodiscard]] SvgPoint pixel(const SvgPoint& p) const {
@@ -192,12 +199,12 @@ class View {
     svg_.circle(table, kBall, "box s2");
     svg_.circle(spindle, kBall, "dot s1");
     if (std::hypot(spindle.x - table.x, spindle.y - table.y) < kBall) {
-      svg_.text({table.x, table.y - 13.0}, "spindle ball over table ball");
+      svg_.text({table.x, table.y - 13.0}, words_("spindle ball over table ball"));
       return;
     }
     const bool spindle_above = spindle.y < table.y;
-    svg_.text({table.x, table.y + (spindle_above ? 22.0 : -13.0)}, "table ball");
-    svg_.text({spindle.x, spindle.y + (spindle_above ? -13.0 : 22.0)}, "spindle ball");
+    svg_.text({table.x, table.y + (spindle_above ? 22.0 : -13.0)}, words_("table ball"));
+    svg_.text({spindle.x, spindle.y + (spindle_above ? -13.0 : 22.0)}, words_("spindle ball"));
   }
 
   void draw_offset() {
@@ -220,10 +227,12 @@ class View {
   }
 
   void draw_scale() {
-    const double length = round_up_125(60.0 / scale_);
+    // A round number of the shown unit.
+    const double unit = words_.shown(1.0, "mm");
+    const double shown = round_up_125(60.0 / scale_ * unit), length = shown / unit;
     const double y = kSide - 22.0, end = kSide - 14.0;
     svg_.line({end - scale_ * length, y}, {end, y}, "axis");
-    svg_.text({end, y - 7.0}, fmt::format("{:g} mm", length), SvgAnchor::end);
+    svg_.text({end, y - 7.0}, words_.general(shown) + " " + words_.symbol("mm"), SvgAnchor::end);
   }
 
   void arrow_head(SvgPoint from, SvgPoint to, std::string_view classes) {
@@ -237,6 +246,7 @@ class View {
 
   const BarDrawing& drawing_;
   const SheetAxes& axes_;
+  const Wording& words_;
   SvgDrawing svg_;
   SvgPoint middle_{};
   double scale_ = 1.0;
@@ -244,10 +254,10 @@ class View {
 
 }  // namespace
 
-std::string bar_figure_of(const BarDrawing& drawing) {
+std::string bar_figure_of(const BarDrawing& drawing, const Wording& words) {
   if (drawing.path.size() < 2) return {};
   std::string html = "<div class=\"pair\">";
-  for (const SheetAxes& axes : kViews) html += View(drawing, axes).html();
+  for (const SheetAxes& axes : kViews) html += View(drawing, axes, words).html();
   return html + "</div>\n";
 }
 

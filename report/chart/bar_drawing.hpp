@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/pose.hpp"
+#include "report/wording.hpp"
 
 namespace frustum::report {
 
@@ -33,6 +34,7 @@ struct BarDrawing {
   std::vector<Outline> bodies{};  // of the table
 };
 
-[[nodiscard]] std::string bar_figure_of(const BarDrawing& drawing);
+[[nodiscard]] std::string bar_figure_of(const BarDrawing& drawing,
+                                        const Wording& words = Wording());
 
 }  // namespace frustum::report

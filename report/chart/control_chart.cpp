@@ -54,12 +54,13 @@ struct Drawn {
   SvgDrawing& drawing;
   const PlotFrame& frame;
   const PlotScale &on_x, &on_y;
+  const Wording& words;
 
-  void level(double value, const char* classes, const char* text) const {
+  void level(double value, const char* classes, Phrase text) const {
     if (value < on_y.range.low || value > on_y.range.high) return;
     const SvgPoint from = frame.at(on_x.range.low, value, on_x, on_y);
     drawing.line(from, {frame.right, from.y}, classes);
-    drawing.text({frame.right + 6.0, from.y + 4.0}, text, SvgAnchor::start,
+    drawing.text({frame.right + 6.0, from.y + 4.0}, words(text), SvgAnchor::start,
                  std::string_view(classes) == "limit" ? "limit-text" : "");
   }
 };
@@ -91,7 +92,8 @@ PlotRange values_of(const ControlChart& chart) {
 void draw_values(const Drawn& on, const ControlChart& chart) {
   for (const double limit : chart.tolerance_limits) on.level(limit, "limit", "tolerance");
   for (const double limit : chart.control_limits) {
-    on.level(limit, "extreme", limit == chart.control_limits.front() ? "LCL" : "UCL");
+    on.level(limit, "extreme",
+             limit == chart.control_limits.front() ? Phrase("LCL") : Phrase("UCL"));
   }
   if (chart.mean) on.level(*chart.mean, "zero", "mean");
   std::vector<SvgPoint> line;
@@ -139,7 +141,7 @@ void draw_ranges(const Drawn& on, const ControlChart& chart) {
 
 }  // namespace
 
-std::string control_figure(const ControlChart& chart) {
+std::string control_figure(const ControlChart& chart, const Wording& words) {
   if (chart.points.empty()) return {};
   PlotRange dates = PlotRange::empty(), ranges = PlotRange::empty();
   ranges.include(0.0);
@@ -151,19 +153,20 @@ std::string control_figure(const ControlChart& chart) {
   const bool has_ranges = ranges.high > 0.0;
   ranges.high *= 1.08;
   const PlotScale on_x{dates.widened(0.02, 2.0), "", 8};
-  const PlotScale on_y{values_of(chart), chart.value_title, 6};
-  const PlotScale on_range{ranges, "moving range", 3};
+  const PlotScale on_y{values_of(chart), chart.value_title, 6, 0.0, words.decimal_sign()};
+  const PlotScale on_range{ranges, words("moving range"), 3, 0.0, words.decimal_sign()};
   const double height = has_ranges ? 400.0 : 300.0;
   const PlotFrame values{900.0, height, 84.0, 820.0, 10.0, 266.0};
   const PlotFrame below{900.0, height, 84.0, 820.0, 292.0, 366.0};
-  SvgDrawing drawing(900.0, height, chart.title + ": " + chart.value_title + " over the date");
+  SvgDrawing drawing(900.0, height,
+                     words("{0}: {1} over the date", chart.title, chart.value_title));
   draw_dates(drawing, values, on_x, !has_ranges);
   draw_y_scale(drawing, values, on_y);
-  draw_values({drawing, values, on_x, on_y}, chart);
+  draw_values({drawing, values, on_x, on_y, words}, chart);
   if (has_ranges) {
     draw_dates(drawing, below, on_x, true);
     draw_y_scale(drawing, below, on_range);
-    draw_ranges({drawing, below, on_x, on_range}, chart);
+    draw_ranges({drawing, below, on_x, on_range, words}, chart);
   }
   return fmt::format(
       "<figure class=\"axes\"><figcaption><b>{}</b><span class=\"scale\">{}</span></figcaption>\n"

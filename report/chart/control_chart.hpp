@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "report/wording.hpp"
+
 namespace frustum::report {
 
 // as_left: after an adjustment; drawn as a ring.
@@ -33,6 +35,7 @@ struct ControlChart {
   std::optional<std::array<std::array<double, 2>, 2>> trend{};
 };
 
-[[nodiscard]] std::string control_figure(const ControlChart& chart);
+[[nodiscard]] std::string control_figure(const ControlChart& chart,
+                                         const Wording& words = Wording());
 
 }  // namespace frustum::report

@@ -37,7 +37,7 @@ void draw_box(SvgDrawing& drawing, const PlotFrame& frame, const PlotScale& on_x
 }  // namespace
 
 std::string box_figure(const std::string& title, const std::string& scale_title,
-                       std::span<const BoxRow> rows) {
+                       std::span<const BoxRow> rows, const Wording& words) {
   PlotRange range = PlotRange::empty();
   for (const BoxRow& row : rows) {
     for (const double value : {row.min, row.max}) range.include(value);
@@ -47,7 +47,7 @@ std::string box_figure(const std::string& title, const std::string& scale_title,
       if (limit > row.min - far && limit < row.max + far) range.include(limit);
     }
   }
-  const PlotScale on_x{range.widened(0.03, 1e-3), scale_title, 8};
+  const PlotScale on_x{range.widened(0.03, 1e-3), scale_title, 8, 0.0, words.decimal_sign()};
   constexpr double kRow = 46.0;
   const double height = kRow * static_cast<double>(rows.size());
   const PlotFrame frame{900.0, height + 60.0, 220.0, 884.0, 8.0, 8.0 + height};
@@ -65,7 +65,7 @@ std::string box_figure(const std::string& title, const std::string& scale_title,
 }
 
 std::string distribution_figure(const std::string& title, const std::string& scale_title,
-                                const DistributionLine& line) {
+                                const DistributionLine& line, const Wording& words) {
   if (line.value.empty()) return {};
   PlotRange range = PlotRange::empty();
   range.include(line.value.front());
@@ -76,8 +76,9 @@ std::string distribution_figure(const std::string& title, const std::string& sca
     if (limit > range.low - wide && limit < range.high + wide) limits.push_back(limit);
   }
   for (const double limit : limits) range.include(limit);
-  const PlotScale on_x{range.widened(0.02, 1e-6), scale_title, 8};
-  const PlotScale on_y{{0.0, 1.0}, "share of the machines", 5};
+  const char sign = words.decimal_sign();
+  const PlotScale on_x{range.widened(0.02, 1e-6), scale_title, 8, 0.0, sign};
+  const PlotScale on_y{{0.0, 1.0}, words("share of the machines"), 5, 0.0, sign};
   const PlotFrame frame{900.0, 330.0, 62.0, 884.0, 10.0, 288.0};
   SvgDrawing drawing(frame.width, frame.height, title);
   draw_x_scale(drawing, frame, on_x);
@@ -102,7 +103,7 @@ std::string distribution_figure(const std::string& title, const std::string& sca
     const bool is_low = above != line.value.begin() &&
                         line.p[static_cast<std::size_t>(above - line.value.begin()) - 1] > 0.5;
     const double y = is_low ? frame.bottom - 8.0 : frame.top + 14.0;
-    drawing.text({x - 6.0, y}, "limit", SvgAnchor::end, "limit-text");
+    drawing.text({x - 6.0, y}, words("limit"), SvgAnchor::end, "limit-text");
   }
   return framed(title, drawing);
 }

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "report/wording.hpp"
+
 namespace frustum::report {
 
 struct BoxRow {
@@ -18,7 +20,8 @@ struct BoxRow {
 
 // A <figure> of boxes along one scale.
 [[nodiscard]] std::string box_figure(const std::string& title, const std::string& scale_title,
-                                     std::span<const BoxRow> rows);
+                                     std::span<const BoxRow> rows,
+                                     const Wording& words = Wording());
 
 // The share of values that are not larger: at each value its p; as many points as can be seen.
 struct DistributionLine {
@@ -30,6 +33,7 @@ struct DistributionLine {
 };
 [[nodiscard]] std::string distribution_figure(const std::string& title,
                                               const std::string& scale_title,
-                                              const DistributionLine& line);
+                                              const DistributionLine& line,
+                                              const Wording& words = Wording());
 
 }  // namespace frustum::report

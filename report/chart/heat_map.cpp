@@ -34,7 +34,7 @@ std::optional<std::array<double, 2>> range_of(const HeatMap& map) {
   return range;
 }
 
-std::string heat_map_figure(const HeatMap& map) {
+std::string heat_map_figure(const HeatMap& map, const Wording& words) {
   const auto [low, high] =
       map.shades ? *map.shades : range_of(map).value_or(std::array<double, 2>{0.0, 0.0});
   // More columns than these leave no room for their values: the shades and their ends say them.
@@ -64,16 +64,18 @@ std::string heat_map_figure(const HeatMap& map) {
       const double x = kLeft + static_cast<double>(k) * cell;
       drawing.rectangle({x, y}, {x + cell, y + row_height}, "cell", shade(share));
       if (!written) continue;
-      drawing.text({x + 0.5 * cell, y + 0.5 * row_height + 4.0}, fmt::format("{:.4g}", *value),
-                   SvgAnchor::middle, share > 0.45 ? "on-dark" : "on-light");
+      drawing.text({x + 0.5 * cell, y + 0.5 * row_height + 4.0},
+                   words.number(fmt::format("{:.4g}", *value)), SvgAnchor::middle,
+                   share > 0.45 ? "on-dark" : "on-light");
     }
   }
   const std::string ends =
       written ? ""
               : fmt::format(
-                    "<span class=\"shades\">{:.4g} <i style=\"background:linear-gradient("
-                    "90deg,{},{})\"></i> {:.4g}</span>",
-                    low, shade(0.0), shade(1.0), high);
+                    "<span class=\"shades\">{} <i style=\"background:linear-gradient("
+                    "90deg,{},{})\"></i> {}</span>",
+                    words.number(fmt::format("{:.4g}", low)), shade(0.0), shade(1.0),
+                    words.number(fmt::format("{:.4g}", high)));
   return fmt::format("<figure class=\"axes\"><figcaption><b>{}</b>{}</figcaption>\n{}</figure>\n",
                      html_text(map.title), ends, drawing.html());
 }

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "report/wording.hpp"
+
 namespace frustum::report {
 
 struct HeatMap {
@@ -22,6 +24,6 @@ struct HeatMap {
 
 // Of the least and the largest value; absent where there is none.
 [[nodiscard]] std::optional<std::array<double, 2>> range_of(const HeatMap& map);
-[[nodiscard]] std::string heat_map_figure(const HeatMap& map);
+[[nodiscard]] std::string heat_map_figure(const HeatMap& map, const Wording& words = Wording());
 
 }  // namespace frustum::report

@@ -181,7 +181,8 @@ std::string polar_figure(const metrology::CharacteristicResult& characteristic,
       html_text(characteristic.name), facts, series_key(names), drawing.html());
 }
 
-std::string polar_traces_figure(const std::string& title, const std::vector<PolarTrace>& traces) {
+std::string polar_traces_figure(const std::string& title, const std::vector<PolarTrace>& traces,
+                                const Wording& words) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const PolarTrace& trace : traces) {
     for (const PolarPoint& p : trace.points) {
@@ -192,9 +193,10 @@ std::string polar_traces_figure(const std::string& title, const std::vector<Pola
   if (!(high >= low)) low = high = 0.0;
   const PolarScale scale = scale_of(low, high);
   const std::string facts =
-      fmt::format("from {} to {} µm, {} µm per division", fixed_text(low, 3), fixed_text(high, 3),
-                  tick_text(scale.division, scale.division));
-  SvgDrawing drawing(kWidth, kHeight, fmt::format("Polar chart of {}: {}", title, facts));
+      words("from {0} to {1} {3}, {2} {3} per division", words.fixed(low, words.is_inch() ? 2 : 3),
+            words.fixed(high, words.is_inch() ? 2 : 3),
+            words.number(tick_text(scale.division, scale.division)), words.symbol("um"));
+  SvgDrawing drawing(kWidth, kHeight, words("Polar chart of {0}: {1}", title, facts));
   draw_grid(drawing, scale);
   std::vector<std::string> names, marks;
   for (std::size_t k = 0; k < traces.size(); ++k) {
@@ -203,7 +205,7 @@ std::string polar_traces_figure(const std::string& title, const std::vector<Pola
     names.push_back(traces[k].name);
     marks.emplace_back(traces[k].dashed ? "dashed" : "");
   }
-  draw_ruler(drawing, scale, Wording());
+  draw_ruler(drawing, scale, words);
   return fmt::format(
       "<figure class=\"polar\"><figcaption><b>{}</b><span class=\"scale\">{}</span>{}</figcaption>"
       "\n{}</figure>\n",

@@ -35,8 +35,10 @@ struct PolarTrace {
   PolarRound points{};
   bool dashed = false;
 };
-// A <figure> of several traces over one another: range, division, key, drawing.
+// A <figure> of several traces over one another, in the shown unit of um: range, division, key,
+// drawing.
 [[nodiscard]] std::string polar_traces_figure(const std::string& title,
-                                              const std::vector<PolarTrace>& traces);
+                                              const std::vector<PolarTrace>& traces,
+                                              const Wording& words = Wording());
 
 }  // namespace frustum::report

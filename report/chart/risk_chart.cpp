@@ -9,15 +9,16 @@
 
 namespace frustum::report {
 
-std::string risk_figure(const std::string& title, const RiskCurve& curve) {
+std::string risk_figure(const std::string& title, const RiskCurve& curve, const Wording& words) {
   PlotRange along = PlotRange::empty(), risks{0.0, 1e-4};
   for (const double guard : curve.guard) along.include(guard);
   for (const auto* values : {&curve.consumer, &curve.producer}) {
     for (const double value : *values) risks.include(value);
   }
+  const char sign = words.decimal_sign();
   const PlotScale on_x{along.widened(0.0, 0.1),
-                       "guard band, in U = 2 u (negative: beyond the limit)", 8};
-  const PlotScale on_y{{0.0, 1.05 * risks.high}, "risk", 5};
+                       words("guard band, in U = 2 u (negative: beyond the limit)"), 8, 0.0, sign};
+  const PlotScale on_y{{0.0, 1.05 * risks.high}, words("risk"), 5, 0.0, sign};
   const PlotFrame frame{900.0, 330.0, 76.0, 884.0, 10.0, 288.0};
   SvgDrawing drawing(frame.width, frame.height, title);
   draw_x_scale(drawing, frame, on_x);
@@ -31,12 +32,12 @@ std::string risk_figure(const std::string& title, const RiskCurve& curve) {
   };
   draw(curve.consumer, "trace s1");
   draw(curve.producer, "trace dashed s2");
-  return fmt::format(
-      "<figure class=\"axes\"><figcaption><b>{}</b>{}</figcaption>\n{}</figure>\n",
-      html_text(title),
-      series_key({"consumer: a bad part is accepted", "producer: a good part is rejected"},
-                 {"", "dashed"}),
-      drawing.html());
+  return fmt::format("<figure class=\"axes\"><figcaption><b>{}</b>{}</figcaption>\n{}</figure>\n",
+                     html_text(title),
+                     series_key({words("consumer: a bad part is accepted"),
+                                 words("producer: a good part is rejected")},
+                                {"", "dashed"}),
+                     drawing.html());
 }
 
 }  // namespace frustum::report

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "report/wording.hpp"
+
 namespace frustum::report {
 
 struct RiskCurve {
@@ -13,6 +15,7 @@ struct RiskCurve {
   std::vector<double> consumer{}, producer{};
 };
 
-[[nodiscard]] std::string risk_figure(const std::string& title, const RiskCurve& curve);
+[[nodiscard]] std::string risk_figure(const std::string& title, const RiskCurve& curve,
+                                      const Wording& words = Wording());
 
 }  // namespace frustum::report

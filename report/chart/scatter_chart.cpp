@@ -24,8 +24,10 @@ PlotRange range_of(const ScatterSeries& series) {
 }  // namespace
 
 std::string scatter_figure(const std::string& title, const ScatterSeries& along,
-                           const ScatterSeries& up) {
-  const PlotScale on_x{range_of(along), along.title, 8}, on_y{range_of(up), up.title, 6};
+                           const ScatterSeries& up, const Wording& words) {
+  const char sign = words.decimal_sign();
+  const PlotScale on_x{range_of(along), along.title, 8, 0.0, sign};
+  const PlotScale on_y{range_of(up), up.title, 6, 0.0, sign};
   const PlotFrame frame{900.0, 420.0, 76.0, 884.0, 10.0, 378.0};
   SvgDrawing drawing(frame.width, frame.height, title);
   draw_x_scale(drawing, frame, on_x);

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "report/wording.hpp"
+
 namespace frustum::report {
 
 struct ScatterSeries {
@@ -15,6 +17,6 @@ struct ScatterSeries {
 };
 
 [[nodiscard]] std::string scatter_figure(const std::string& title, const ScatterSeries& along,
-                                         const ScatterSeries& up);
+                                         const ScatterSeries& up, const Wording& words = Wording());
 
 }  // namespace frustum::report

@@ -11,13 +11,15 @@
 
 namespace frustum::report {
 
-std::string tornado_figure(const std::string& title, std::span<const TornadoRow> rows) {
+std::string tornado_figure(const std::string& title, std::span<const TornadoRow> rows,
+                           const Wording& words) {
   PlotRange range{0.0, 0.05};
   for (const TornadoRow& row : rows) {
     range.include(row.share);
     range.include(row.total);
   }
-  const PlotScale on_x{{0.0, 1.02 * range.high}, "share", 8}, any{};
+  const PlotScale on_x{{0.0, 1.02 * range.high}, words("share"), 8, 0.0, words.decimal_sign()};
+  const PlotScale any{};
   constexpr double kRow = 30.0;
   const double height = kRow * static_cast<double>(rows.size());
   const PlotFrame frame{900.0, height + 60.0, 150.0, 884.0, 8.0, 8.0 + height};
@@ -35,7 +37,8 @@ std::string tornado_figure(const std::string& title, std::span<const TornadoRow>
     y += kRow;
   }
   return fmt::format("<figure class=\"axes\"><figcaption><b>{}</b>{}</figcaption>\n{}</figure>\n",
-                     html_text(title), series_key({"total index", "share of the mean square"}),
+                     html_text(title),
+                     series_key({words("total index"), words("share of the mean square")}),
                      drawing.html());
 }
 

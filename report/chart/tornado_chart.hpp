@@ -6,6 +6,8 @@
 #include <span>
 #include <string>
 
+#include "report/wording.hpp"
+
 namespace frustum::report {
 
 struct TornadoRow {
@@ -14,7 +16,7 @@ struct TornadoRow {
   double total = 0.0;  // index
 };
 
-[[nodiscard]] std::string tornado_figure(const std::string& title,
-                                         std::span<const TornadoRow> rows);
+[[nodiscard]] std::string tornado_figure(const std::string& title, std::span<const TornadoRow> rows,
+                                         const Wording& words = Wording());
 
 }  // namespace frustum::report

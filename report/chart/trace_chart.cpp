@@ -40,7 +40,7 @@ void draw_line(SvgDrawing& drawing, const PlotFrame& frame, const PlotScale& on_
 
 }  // namespace
 
-std::string trace_figure(const TraceChart& chart) {
+std::string trace_figure(const TraceChart& chart, const Wording& words) {
   PlotRange along = PlotRange::empty(), values = PlotRange::empty();
   values.include(0.0);
   for (const TraceLine& line : chart.lines) {
@@ -52,11 +52,12 @@ std::string trace_figure(const TraceChart& chart) {
     }
   }
   constexpr double kLeast = 1e-3;  // um: rounding does not look like an error
-  const PlotScale on_x{along.widened(0.01, 1e-6), chart.along_title, 8};
-  const PlotScale on_y{values.widened(0.06, kLeast), chart.value_title, 6};
+  const char sign = words.decimal_sign();
+  const PlotScale on_x{along.widened(0.01, 1e-6), chart.along_title, 8, 0.0, sign};
+  const PlotScale on_y{values.widened(0.06, kLeast), chart.value_title, 6, 0.0, sign};
   const PlotFrame frame{720.0, 300.0, 70.0, 704.0, 10.0, 252.0};
   SvgDrawing drawing(frame.width, frame.height,
-                     chart.title + ": " + chart.value_title + " over " + chart.along_title);
+                     words("{0}: {1} over {2}", chart.title, chart.value_title, chart.along_title));
   draw_x_scale(drawing, frame, on_x);
   draw_y_scale(drawing, frame, on_y);
   std::vector<std::string> names, marks;

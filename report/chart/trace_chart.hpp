@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "report/wording.hpp"
+
 namespace frustum::report {
 
 struct TraceLine {
@@ -25,7 +27,7 @@ struct TraceChart {
   std::vector<TraceLine> lines{};
 };
 
-[[nodiscard]] std::string trace_figure(const TraceChart& chart);
+[[nodiscard]] std::string trace_figure(const TraceChart& chart, const Wording& words = Wording());
 
 struct BarRow {
   std::string label{};

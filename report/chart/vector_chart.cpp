@@ -34,7 +34,8 @@ void draw_arrow(SvgDrawing& drawing, SvgPoint from, SvgPoint to, const std::stri
 
 }  // namespace
 
-std::string vector_figure(const std::string& title, const std::vector<ArrowSeries>& series) {
+std::string vector_figure(const std::string& title, const std::vector<ArrowSeries>& series,
+                          const Wording& words) {
   double longest = 1e-4;  // um: rounding is no arrow
   for (const ArrowSeries& each : series) {
     for (const CircleArrow& a : each.arrows) longest = std::max(longest, std::hypot(a.x, a.y));
@@ -61,7 +62,8 @@ std::string vector_figure(const std::string& title, const std::vector<ArrowSerie
   }
   const double y = kSize + 8.0;
   drawing.line({20.0, y}, {20.0 + scale * unit, y}, "axis");
-  drawing.text({28.0 + scale * unit, y + 4.0}, fmt::format("{:g} µm", unit), SvgAnchor::start);
+  drawing.text({28.0 + scale * unit, y + 4.0}, words.general(unit) + " " + words.symbol("um"),
+               SvgAnchor::start);
   return fmt::format("<figure class=\"polar\"><figcaption><b>{}</b>{}</figcaption>\n{}</figure>\n",
                      html_text(title), series_key(names), drawing.html());
 }

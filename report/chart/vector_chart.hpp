@@ -1,10 +1,12 @@
 // Displacements in a plane as arrows on a circle, magnified.
 //
-// Units: rad, um. Errors: none; arrows that are not finite are left out.
+// Units: rad, um as the wording shows it. Errors: none; arrows that are not finite are left out.
 #pragma once
 
 #include <string>
 #include <vector>
+
+#include "report/wording.hpp"
 
 namespace frustum::report {
 
@@ -18,6 +20,7 @@ struct ArrowSeries {
 };
 
 [[nodiscard]] std::string vector_figure(const std::string& title,
-                                        const std::vector<ArrowSeries>& series);
+                                        const std::vector<ArrowSeries>& series,
+                                        const Wording& words = Wording());
 
 }  // namespace frustum::report

@@ -31,7 +31,7 @@ std::string listed(const std::vector<std::string>& texts, const char* kind) {
   return html + "</ul>\n";
 }
 
-constexpr const char* kChartNote =
+constexpr Phrase kChartNote =
     "Dots: as found; rings: as left after an adjustment, which do not enter the limits; orange: "
     "beyond a limit or the tolerance; whiskers: 95 % interval of the value, where it is stated. "
     "Grey, dashed: control limits, mean ± 2.66 times the mean moving range, below them the moving "
@@ -41,30 +41,34 @@ constexpr const char* kChartNote =
 }  // namespace
 
 std::string history_html(const HistoryPage& page) {
+  const Wording words(page.style);
   const char* const verdict = page.passes ? "pass" : "fail";
   std::string body = fmt::format(
-      "<header><p class=\"brand\"><b>Frustum</b> History of a machine</p>\n<div class=\"top\">"
+      "<header><p class=\"brand\"><b>Frustum</b> {}</p>\n<div class=\"top\">"
       "<h1>{}</h1><p class=\"verdict {}\"><b>{}</b>{}</p></div><dl class=\"facts\">",
-      html_text(page.title), verdict, page.passes ? "Pass" : "Fail", html_text(page.reason));
+      words("History of a machine"), html_text(page.title), verdict,
+      page.passes ? words("Pass") : words("Fail"), html_text(page.reason));
   for (const auto& [name, value] : page.facts) body += fact(html_text(name), html_text(value));
   body += "</dl></header>\n<main>" + history_table(page.values, TableStyle::cards);
   if (!page.failures.empty()) {
-    body += section("failures", "What fails", listed(page.failures, "error"));
+    body += section("failures", words("What fails"), listed(page.failures, "error"));
   }
   std::string charts;
-  for (const ControlChart& chart : page.charts) charts += control_figure(chart);
+  for (const ControlChart& chart : page.charts) charts += control_figure(chart, words);
   if (!charts.empty()) {
-    body += section("charts", "Control charts",
-                    charts + "<p class=\"note\">" + html_text(kChartNote) + "</p>\n");
+    body += section("charts", words("Control charts"),
+                    charts + "<p class=\"note\">" + html_text(words(kChartNote)) + "</p>\n");
   }
   for (const HistoryTable& table : page.tables) body += history_table(table, TableStyle::rows);
   if (!page.remarks.empty()) {
-    body += section("remarks", "Remarks", listed(page.remarks, "warning"));
+    body += section("remarks", words("Remarks"), listed(page.remarks, "warning"));
   }
-  body +=
-      "</main>\n<footer><p>Made by Frustum. The licences of the bundled packages are in the source "
-      "of this page.</p></footer>\n";
-  return filled_page(html_text(page.title), body, "{}");
+  body += "</main>\n<footer><p>" +
+          words(
+              "Made by Frustum. The licences of the bundled packages are in the source of this "
+              "page.") +
+          "</p></footer>\n";
+  return filled_page(html_text(page.title), body, "{}", words.code());
 }
 
 }  // namespace frustum::report

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "report/chart/control_chart.hpp"
+#include "report/wording.hpp"
 
 namespace frustum::report {
 
@@ -20,6 +21,7 @@ struct HistoryTable {
 };
 
 struct HistoryPage {
+  ReportStyle style{};
   std::string title{};
   bool passes = true;
   std::string reason{};                             // beside the verdict

@@ -19,22 +19,24 @@ std::string with_minus(const std::string& cell) {
   return negative ? "\u2212" + cell.substr(1) : cell;
 }
 
-std::string trace_section(const MotionPage& page) {
+std::string trace_section(const MotionPage& page, const Wording& words) {
   std::string content;
   if (!page.polar.empty()) {
-    content += "<div class=\"pair\">" + polar_traces_figure("Polar trace", page.polar) + "</div>\n";
+    content += "<div class=\"pair\">" +
+               polar_traces_figure(words("Polar trace"), page.polar, words) + "</div>\n";
   }
   if (!page.arrows.empty()) {
     content += "<div class=\"pair\">" +
-               vector_figure("Displacements in the plane of the table", page.arrows) + "</div>\n";
+               vector_figure(words("Displacements in the plane of the table"), page.arrows, words) +
+               "</div>\n";
   }
-  for (const TraceChart& chart : page.charts) content += trace_figure(chart);
-  return content.empty() ? "" : section("traces", "Traces", content);
+  for (const TraceChart& chart : page.charts) content += trace_figure(chart, words);
+  return content.empty() ? "" : section("traces", words("Traces"), content);
 }
 
-std::string setup_section(const MotionPage& page) {
+std::string setup_section(const MotionPage& page, const Wording& words) {
   if (!page.setup) return {};
-  return section("setup", html_text(page.setup->title), bar_figure_of(*page.setup));
+  return section("setup", html_text(page.setup->title), bar_figure_of(*page.setup, words));
 }
 
 std::string table_sections(const MotionPage& page) {
@@ -53,46 +55,57 @@ std::string table_sections(const MotionPage& page) {
   return html;
 }
 
-std::string contribution_section(const MotionPage& page) {
+std::string contribution_section(const MotionPage& page, const Wording& words) {
   if (page.contributions.empty()) return {};
-  return section("contributions", "Ranked contributions",
-                 bar_figure("G of each term alone, and its share of the sum", page.contributions) +
-                     table_note("The sum of all exceeds G where terms cancel."));
+  return section(
+      "contributions", words("Ranked contributions"),
+      bar_figure(words("G of each term alone, and its share of the sum"), page.contributions) +
+          table_note(words("The sum of all exceeds G where terms cancel.")));
 }
 
-std::string list_of(const std::vector<std::string>& items) {
-  if (items.empty()) return "<p>Nothing.</p>\n";
-  return "<p>" + html_text(fmt::format("{}", fmt::join(items, ", "))) + ".</p>\n";
+std::string list_of(const std::vector<std::string>& items, const Wording& words) {
+  if (items.empty()) return "<p>" + words("Nothing.") + "</p>\n";
+  return "<p>" +
+         html_text(fmt::format("{}", fmt::join(items, words.decimal_sign() == ',' ? "; " : ", "))) +
+         ".</p>\n";
 }
 
-std::string told_section(const MotionPage& page) {
+std::string told_section(const MotionPage& page, const Wording& words) {
   if (page.told.empty() && page.not_told.empty()) return {};
-  return section("told", "What the test tells",
-                 "<h3>Identified, whatever the set-up</h3>\n" + list_of(page.told) +
-                     "<h3>Not identified alone</h3>\n" + list_of(page.not_told));
+  return section("told", words("What the test tells"),
+                 "<h3>" + words("Identified, whatever the set-up") + "</h3>\n" +
+                     list_of(page.told, words) + "<h3>" + words("Not identified alone") +
+                     "</h3>\n" + list_of(page.not_told, words));
 }
 
 }  // namespace
 
 std::string motion_html(const MotionPage& page) {
-  std::string body =
-      "<header><p class=\"brand\"><b>Frustum</b> Motion test</p>\n<div class=\"top\"><h1>" +
-      html_text(page.title) + "</h1></div><dl class=\"facts\">";
+  const Wording words(page.style);
+  std::string body = "<header><p class=\"brand\"><b>Frustum</b> " + words("Motion test") +
+                     "</p>\n<div class=\"top\"><h1>" + html_text(page.title) +
+                     "</h1></div><dl class=\"facts\">";
   for (const auto& [name, value] : page.facts) body += fact(html_text(name), html_text(value));
   body += "</dl></header>\n<main>";
   if (!page.remarks.empty()) {
+    // Messages are in English, and a page in another language says so.
+    if (page.style.language != Language::english) {
+      body += "<p class=\"note\">" + words("Remarks") + "</p>\n";
+    }
     body += "<ul class=\"remarks\">";
     for (const std::string& remark : page.remarks) {
       body += "<li class=\"warning\">" + html_text(remark) + "</li>";
     }
     body += "</ul>\n";
   }
-  body += setup_section(page) + trace_section(page) + table_sections(page) +
-          contribution_section(page) + told_section(page);
-  body +=
-      "</main>\n<footer><p>Made by Frustum. The licences of the bundled packages are in the source "
-      "of this page.</p></footer>\n";
-  return filled_page(html_text(page.title), body, "{}");
+  body += setup_section(page, words) + trace_section(page, words) + table_sections(page) +
+          contribution_section(page, words) + told_section(page, words);
+  body += "</main>\n<footer><p>" +
+          words(
+              "Made by Frustum. The licences of the bundled packages are in the source of this "
+              "page.") +
+          "</p></footer>\n";
+  return filled_page(html_text(page.title), body, "{}", words.code());
 }
 
 }  // namespace frustum::report

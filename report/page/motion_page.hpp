@@ -1,7 +1,7 @@
 // The page of a motion test: traces, values, contributions, and what the test identifies.
 //
 // Everything is HTML and SVG, and opens without a network or a script.
-// Units: as the texts say. Errors: none.
+// Units: as the texts say; what is drawn is in the shown unit of um already. Errors: none.
 #pragma once
 
 #include <array>
@@ -13,6 +13,7 @@
 #include "report/chart/polar_chart.hpp"
 #include "report/chart/trace_chart.hpp"
 #include "report/chart/vector_chart.hpp"
+#include "report/wording.hpp"
 
 namespace frustum::report {
 
@@ -24,6 +25,7 @@ struct MotionTable {
 };
 
 struct MotionPage {
+  ReportStyle style{};
   std::string title{};
   std::vector<std::array<std::string, 2>> facts{};  // name, value
   std::vector<std::string> remarks{};

@@ -10,7 +10,6 @@
 #include "report/csv_field.hpp"
 #include "report/html/html_text.hpp"
 #include "report/html/page_bundle.hpp"
-#include "report/number_text.hpp"
 #include "report/page/page_parts.hpp"
 
 namespace frustum::report {
@@ -32,24 +31,38 @@ std::string file_name(std::string text) {
   return text;
 }
 
-std::string titled(const std::string& name, const std::string& unit) {
-  return name + ", " + unit_symbol(unit);
+std::string note(const std::string& html) { return "<p class=\"note\">" + html + "</p>"; }
+
+std::string titled(const std::string& name, const std::string& unit, const Wording& words) {
+  return name + ", " + words.symbol(unit);
 }
 
-std::string table_section(const StudyPage& page) {
-  Table table("Characteristics",
-              {"characteristic", ">5 %", ">median (95 % interval)", ">95 %", ">limit",
-               ">conforming (95 % interval)"},
+void shows(std::vector<double>& values, const std::string& unit, const Wording& words) {
+  for (double& value : values) value = words.shown(value, unit);
+}
+
+BoxRow shown_box(const StudyPageCharacteristic& c, const Wording& words) {
+  BoxRow row = c.box;
+  for (double* value : {&row.min, &row.low, &row.middle, &row.high, &row.max}) {
+    *value = words.shown(*value, c.unit);
+  }
+  shows(row.limits, c.unit, words);
+  return row;
+}
+
+std::string table_section(const StudyPage& page, const Wording& words) {
+  Table table(words("Characteristics"),
+              {words("characteristic"), ">5 %", ">" + words("median (95 % interval)"), ">95 %",
+               ">" + words("limit"), ">" + words("conforming (95 % interval)")},
               TableStyle::cards);
   for (const StudyPageCharacteristic& c : page.characteristics) {
-    std::vector<std::string> cells{html_text(titled(c.name, c.unit))};
+    std::vector<std::string> cells{html_text(titled(c.name, c.unit, words))};
     for (const std::string& text : c.row) cells.push_back(html_text(text));
     table.row(cells);
   }
   std::string content = table.html();
   if (!page.all_conform.empty()) {
-    content += fmt::format("<p class=\"note\">Parts within all limits: {}.</p>\n",
-                           html_text(page.all_conform));
+    content += note(words("Parts within all limits: {0}.", html_text(page.all_conform))) + "\n";
   }
   if (!page.remarks.empty()) {
     content += "<ul class=\"remarks\">";
@@ -58,15 +71,15 @@ std::string table_section(const StudyPage& page) {
     }
     content += "</ul>\n";
   }
-  return section("characteristics", "What the machines make", content);
+  return section("characteristics", words("What the machines make"), content);
 }
 
 // Boxes of one unit share a scale.
-std::string box_section(const StudyPage& page) {
+std::string box_section(const StudyPage& page, const Wording& words) {
   std::map<std::string, std::vector<BoxRow>> by_unit;
   std::string csv = "characteristic,unit,min,q1,median,q3,max,lower_limit,upper_limit\n";
   for (const StudyPageCharacteristic& c : page.characteristics) {
-    by_unit[c.unit].push_back(c.box);
+    by_unit[c.unit].push_back(shown_box(c, words));
     const auto& limits = c.box.limits;  // upper, or lower and upper
     csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_field(c.name), c.unit, c.box.min,
                        c.box.low, c.box.middle, c.box.high, c.box.max,
@@ -75,23 +88,24 @@ std::string box_section(const StudyPage& page) {
   }
   std::string content;
   for (const auto& [unit, rows] : by_unit) {
-    content +=
-        box_figure("Smallest, quartiles, largest, " + unit_symbol(unit), unit_symbol(unit), rows);
+    content += box_figure(words("Smallest, quartiles, largest, {0}", words.symbol(unit)),
+                          words.symbol(unit), rows, words);
   }
   content += csv_link("boxes.csv", csv);
-  content +=
-      "<p class=\"note\">Each box holds the middle half of the machines, its bar is the median; "
-      "the "
-      "whiskers reach the smallest and the largest value. Dashed: the limits, where they are "
-      "near.</p>";
-  return section("boxes", "Box plots", content);
+  content += note(
+      words("Each box holds the middle half of the machines, its bar is the median; the whiskers "
+            "reach the smallest and the largest value. Dashed: the limits, where they are near."));
+  return section("boxes", words("Box plots"), content);
 }
 
-std::string distribution_section(const StudyPage& page) {
+std::string distribution_section(const StudyPage& page, const Wording& words) {
   std::string content;
   for (const StudyPageCharacteristic& c : page.characteristics) {
     if (c.distribution.value.empty()) continue;
-    content += distribution_figure(c.name, titled(c.name, c.unit), c.distribution);
+    DistributionLine line = c.distribution;
+    shows(line.value, c.unit, words);
+    shows(line.limits, c.unit, words);
+    content += distribution_figure(c.name, titled(c.name, c.unit, words), line, words);
     std::string csv = fmt::format("value_{},share,low,high\n", c.unit);
     for (std::size_t i = 0; i < c.distribution.value.size(); ++i) {
       const double p = c.distribution.p[i], w = c.distribution.half_width;
@@ -100,13 +114,13 @@ std::string distribution_section(const StudyPage& page) {
     }
     content += csv_link(file_name(c.name) + ".distribution.csv", csv);
   }
-  content +=
-      "<p class=\"note\">The share of machines whose value is not larger. With 95 % confidence the "
-      "whole line of all machines is in the band (Dvoretzky, Kiefer, Wolfowitz).</p>";
-  return section("distributions", "Distributions", content);
+  content += note(
+      words("The share of machines whose value is not larger. With 95 % confidence the whole line "
+            "of all machines is in the band (Dvoretzky, Kiefer, Wolfowitz)."));
+  return section("distributions", words("Distributions"), content);
 }
 
-std::string risk_section(const StudyPage& page) {
+std::string risk_section(const StudyPage& page, const Wording& words) {
   // What is rarer would be an empty picture.
   constexpr double kShownRisk = 1e-4;
   const auto is_shown = [](const RiskCurve& curve) {
@@ -121,7 +135,7 @@ std::string risk_section(const StudyPage& page) {
       without += (without.empty() ? "" : ", ") + html_text(c.name);
       continue;
     }
-    content += risk_figure(c.name, *c.risk);
+    content += risk_figure(c.name, *c.risk, words);
     std::string csv = "guard_U,consumer,producer\n";
     for (std::size_t i = 0; i < c.risk->guard.size(); ++i) {
       csv += fmt::format("{},{},{}\n", c.risk->guard[i], c.risk->consumer[i], c.risk->producer[i]);
@@ -129,57 +143,62 @@ std::string risk_section(const StudyPage& page) {
     content += csv_link(file_name(c.name) + ".risk.csv", csv);
   }
   if (!without.empty()) {
-    content += fmt::format(
-        "<p class=\"note\">Both risks are below {:g} with any of these guard bands: {}.</p>\n",
-        kShownRisk, without);
+    content += note(words("Both risks are below {0} with any of these guard bands: {1}.",
+                          words.general(kShownRisk), without)) +
+               "\n";
   }
   if (content.empty()) return {};
-  return section("risks", "What a guard band costs", content);
+  return section("risks", words("What a guard band costs"), content);
 }
 
-std::string scatter_section(const StudyPage& page) {
+std::string scatter_section(const StudyPage& page, const Wording& words) {
   if (!page.scatter) return {};
   const auto& [along, up] = *page.scatter;
   std::string csv = csv_field(along.title) + "," + csv_field(up.title) + "\n";
   for (std::size_t i = 0; i < along.values.size(); ++i) {
     csv += fmt::format("{},{}\n", along.values[i], up.values[i]);
   }
-  return section("scatter", "Two characteristics of each machine",
-                 scatter_figure(up.title + " over " + along.title, along, up) +
+  const auto& [shown_along, shown_up] = page.shown_scatter ? *page.shown_scatter : *page.scatter;
+  return section("scatter", words("Two characteristics of each machine"),
+                 scatter_figure(words("{0} over {1}", shown_up.title, shown_along.title),
+                                shown_along, shown_up, words) +
                      csv_link("scatter.csv", csv) +
-                     "<p class=\"note\">The first machines of the study. Dashed: limits.</p>");
+                     note(words("The first machines of the study. Dashed: limits.")));
 }
 
-std::string share_section(const StudyPage& page) {
+std::string share_section(const StudyPage& page, const Wording& words) {
   if (page.shares.empty()) return {};
   std::string csv = "errors,total,mean_square\n";
   for (const TornadoRow& row : page.shares) {
     csv += fmt::format("{},{},{}\n", csv_field(row.label), row.total, row.share);
   }
-  return section("shares", "Which errors make it",
-                 tornado_figure("Errors of " + page.share_characteristic, page.shares) +
-                     csv_link("shares.csv", csv) +
-                     "<p class=\"note\">Total index: the share of the variance that would be left "
-                     "if all other errors were known. Share of the mean square: of the deviations "
-                     "of all points; these shares add up to 1.</p>");
+  return section(
+      "shares", words("Which errors make it"),
+      tornado_figure(words("Errors of {0}", page.share_characteristic), page.shares, words) +
+          csv_link("shares.csv", csv) +
+          note(words("Total index: the share of the variance that would be left if all other "
+                     "errors were known. Share of the mean square: of the deviations of all "
+                     "points; these shares add up to 1.")));
 }
 
-std::string allocation_section(const StudyPage& page) {
+std::string allocation_section(const StudyPage& page, const Wording& words) {
   if (page.allocation.empty()) return {};
-  Table table("Tolerances", {"errors", ">factor on their tolerances"});
+  Table table(words("Tolerances"), {words("errors"), ">" + words("factor on their tolerances")});
   for (const auto& [group, factor] : page.allocation) table.row({html_text(group), factor});
-  return section("allocation", "Tolerances that would do",
-                 table.html() + "<p class=\"note\">" + html_text(page.allocation_text) + "</p>\n");
+  return section("allocation", words("Tolerances that would do"),
+                 table.html() + note(html_text(page.allocation_text)) + "\n");
 }
 
-std::string map_section(const StudyPage& page) {
+std::string map_section(const StudyPage& page, const Wording& words) {
   if (page.maps.empty()) return {};
   const HeatMap& first = page.maps.front();
   std::string csv =
       "quantity," + csv_field(first.row_title) + "," + csv_field(first.column_title) + ",value\n";
   std::string content;
+  for (const HeatMap& map : page.shown_maps.empty() ? page.maps : page.shown_maps) {
+    content += heat_map_figure(map, words);
+  }
   for (const HeatMap& map : page.maps) {
-    content += heat_map_figure(map);
     for (std::size_t i = 0; i < map.values.size(); ++i) {
       if (!map.values[i]) continue;
       csv += fmt::format("{},{},{},{}\n", csv_field(map.title),
@@ -188,29 +207,32 @@ std::string map_section(const StudyPage& page) {
     }
   }
   content += csv_link("set-ups.csv", csv);
-  content +=
-      "<p class=\"note\">Signal: root mean square of all points' deviations over all machines. "
-      "Errors that show: how many of them, alone and at their limits, make 1 µm of form or more. "
-      "Directions: in how many independent ways the deviations scatter (participation ratio). A "
-      "strong signal in few directions does not tell one error from another.</p>";
-  return section("maps", "Set-ups", content);
+  content += note(
+      words("Signal: root mean square of all points' deviations over all machines. Errors that "
+            "show: how many of them, alone and at their limits, make 1 µm of form or more. "
+            "Directions: in how many independent ways the deviations scatter (participation "
+            "ratio). A strong signal in few directions does not tell one error from another."));
+  return section("maps", words("Set-ups"), content);
 }
 
 }  // namespace
 
 std::string study_html(const StudyPage& page) {
-  std::string body =
-      "<header><p class=\"brand\"><b>Frustum</b> Study of many machines</p>\n"
-      "<div class=\"top\"><h1>" +
-      html_text(page.title) + "</h1></div><dl class=\"facts\">";
+  const Wording words(page.style);
+  std::string body = "<header><p class=\"brand\"><b>Frustum</b> " +
+                     words("Study of many machines") + "</p>\n<div class=\"top\"><h1>" +
+                     html_text(page.title) + "</h1></div><dl class=\"facts\">";
   for (const auto& [name, value] : page.facts) body += fact(html_text(name), html_text(value));
-  body += "</dl></header>\n<main>" + table_section(page) + box_section(page) +
-          distribution_section(page) + scatter_section(page) + risk_section(page) +
-          share_section(page) + allocation_section(page) + map_section(page);
-  body +=
-      "</main>\n<footer><p>Made by Frustum. The licences of the bundled packages are in the source "
-      "of this page.</p></footer>\n";
-  return filled_page(html_text(page.title), body, "{}");
+  body += "</dl></header>\n<main>" + table_section(page, words) + box_section(page, words) +
+          distribution_section(page, words) + scatter_section(page, words) +
+          risk_section(page, words) + share_section(page, words) + allocation_section(page, words) +
+          map_section(page, words);
+  body += "</main>\n<footer><p>" +
+          words(
+              "Made by Frustum. The licences of the bundled packages are in the source of this "
+              "page.") +
+          "</p></footer>\n";
+  return filled_page(html_text(page.title), body, "{}", words.code());
 }
 
 }  // namespace frustum::report

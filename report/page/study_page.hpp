@@ -1,7 +1,8 @@
 // The page of a study of many machines: what they make, how surely, and which errors make it.
 //
-// Everything is HTML and SVG; each figure's numbers are in the page as a CSV to be downloaded.
-// Units: as the texts say. Errors: none.
+// Everything is HTML and SVG; each figure's numbers are in the page as a CSV to be downloaded, in
+// English, um and urad whatever the style of the page.
+// Units: um, urad; texts say theirs. Errors: none.
 #pragma once
 
 #include <array>
@@ -14,6 +15,7 @@
 #include "report/chart/risk_chart.hpp"
 #include "report/chart/scatter_chart.hpp"
 #include "report/chart/tornado_chart.hpp"
+#include "report/wording.hpp"
 
 namespace frustum::report {
 
@@ -26,17 +28,19 @@ struct StudyPageCharacteristic {
 };
 
 struct StudyPage {
+  ReportStyle style{};
   std::string title{};
   std::vector<std::array<std::string, 2>> facts{};
   std::vector<std::string> remarks{};  // what was not reached, failed draws
   std::string all_conform{};           // P(all limits); empty: none
   std::vector<StudyPageCharacteristic> characteristics{};
-  std::optional<std::array<ScatterSeries, 2>> scatter{};
+  // As in their files, and as they are shown; those without are shown as in the files.
+  std::optional<std::array<ScatterSeries, 2>> scatter{}, shown_scatter{};
   std::string share_characteristic{};
   std::vector<TornadoRow> shares{};
   std::vector<std::array<std::string, 2>> allocation{};  // group, factor
   std::string allocation_text{};
-  std::vector<HeatMap> maps{};
+  std::vector<HeatMap> maps{}, shown_maps{};  // as the scatter
 };
 
 [[nodiscard]] std::string study_html(const StudyPage& page);

@@ -7,6 +7,7 @@
 #include "app/command/command_line.hpp"
 #include "app/command/commands.hpp"
 #include "app/command/listing/listing_commands.hpp"
+#include "app/command/option/style_option.hpp"
 #include "app/history/history.hpp"
 #include "app/history/history_views.hpp"
 #include "app/view/console.hpp"
@@ -20,6 +21,7 @@ struct HistoryCommandOptions : AnswerOptions {
   std::string out{};
   std::string machine{};
   std::string since{};
+  StyleWords style{};
   unsigned baseline = 0;
 };
 
@@ -42,7 +44,7 @@ Result<std::filesystem::path> write_page(const HistoryCommandOptions& words,
   auto set = FileSet::open(words.out, {"history.json", "history.html"});
   if (!set) return set.error();
   set->add("history.json", history_json(history));
-  set->add("history.html", history_page(history));
+  set->add("history.html", history_page(history, report::Wording(style_of(words.style))));
   return set->write();
 }
 
@@ -62,7 +64,7 @@ int show_history(const HistoryCommandOptions& words) {
   if (words.json) {
     std::cout << history_json(*history);
   } else if (!words.quiet) {
-    std::cout << history_text(*history);
+    std::cout << history_text(*history, report::Wording(style_of(words.style)));
   }
   return history->passes() ? kDone : kOutOfTolerance;
 }
@@ -85,6 +87,7 @@ void add_history(Command& program) {
   command.option("--baseline", o->baseline,
                  "Control limits of the first so many results (default: of all)");
   command.option("--since", o->since, "Date from which on results decide the exit code");
+  add_style_options(command, o->style);
   add_answer_options(command, *o);
   command.footer(
       "Exit code 1: a result is beyond its control limits or not within its tolerance.\n"
