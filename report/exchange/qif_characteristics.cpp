@@ -8,6 +8,7 @@
 
 #include "core/units.hpp"
 #include "metrology/plan/qif/qif_kinds.hpp"
+#include "report/exchange/qif_datums.hpp"
 #include "report/form_parameter.hpp"
 #include "report/number_text.hpp"
 #include "report/verdict.hpp"
@@ -83,7 +84,8 @@ const char* orientation_zone(const PlannedParts& plan, const PlannedCharacterist
 }
 
 void add_definition(xml_node node, const CharacteristicKindRow& row,
-                    const CharacteristicResult& result, const char* orientation) {
+                    const CharacteristicResult& result, const char* orientation,
+                    std::optional<int> datum_frame) {
   const double tolerance = document_value(result.tolerance, result);
   if (row.zone == Zone::limits || row.zone == Zone::between) {
     const xml_node limits = add(node, "Tolerance");
@@ -93,6 +95,7 @@ void add_definition(xml_node node, const CharacteristicKindRow& row,
     return;
   }
   add_number(node, "ToleranceValue", tolerance);
+  if (datum_frame) add_reference(node, "DatumReferenceFrameId", *datum_frame);
   if (row.zone == Zone::orientation || row.zone == Zone::position) {
     add_text(node, "MaterialCondition", "NONE");
   }
@@ -186,6 +189,7 @@ CharacteristicIds add_characteristics(xml_node root, const InspectionPlan& plan,
                                       const FeatureIds& features) {
   CharacteristicIds found;
   if (measurement.characteristics.empty()) return found;
+  const Datums datums(root, plan, ids, features);
   const xml_node all = add(root, "Characteristics");
   add_reference(all, "FormalStandardId", standard);
   const xml_node definitions = add(all, "CharacteristicDefinitions");
@@ -198,7 +202,8 @@ CharacteristicIds add_characteristics(xml_node root, const InspectionPlan& plan,
     const int definition = ids.next(), nominal = ids.next(), item = ids.next();
     add_definition(
         add_identified(definitions, name_of_characteristic(row, "Definition"), definition), row,
-        result, orientation_zone(parts, planned));
+        result, orientation_zone(parts, planned),
+        planned == nullptr ? std::nullopt : datums.frame_of(*planned));
     const xml_node nominal_node =
         add_identified(nominals, name_of_characteristic(row, "Nominal"), nominal);
     add_reference(nominal_node, "CharacteristicDefinitionId", definition);

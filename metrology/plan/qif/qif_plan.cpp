@@ -221,8 +221,8 @@ class QifPlanReader {
       std::vector<std::string> names;
       for (const std::size_t i : unprobed_) names.push_back(stated_.plan.features[i].name);
       place(warning("qif-plan-probing"_id,
-                    fmt::format("the document does not say where to touch {}: their points count "
-                                "as one section each",
+                    fmt::format("the document does not say where to touch {}: which sections "
+                                "their points are of is not known",
                                 fmt::join(names, ", ")),
                     "AttributeStr plan.strategy of a feature's item says so"),
             stated_.features[unprobed_.front()]);
@@ -239,9 +239,10 @@ class QifPlanReader {
   [[nodiscard]] Diagnostics moved(Diagnostics found) const {
     for (Diagnostic& d : found) {
       const xml_node element = text_.element(d.line);
-      Diagnostic placed = document_.fault(element, d.id, ": " + d.message, d.hint);
+      const std::string key = d.key.empty() ? d.key : fmt::format("({})", d.key);
+      Diagnostic placed =
+          document_.fault(element, d.id, fmt::format("{}: {}", key, d.message), d.hint);
       placed.severity = d.severity;
-      placed.key = d.key;
       d = std::move(placed);
     }
     return found;

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <string>
+#include <unordered_map>
 
 #include "metrology/plan/qif/qif_elements.hpp"
 #include "metrology/plan/qif/qif_kinds.hpp"
@@ -29,6 +32,14 @@ std::string stems_of(const Rows& rows) {
     all += fmt::format("{}{}", all.empty() ? "" : " ", rows[i].stem);
   }
   return all;
+}
+
+// As they are in the document.
+Diagnostics in_order(Diagnostics found) {
+  std::ranges::stable_sort(found, [](const Diagnostic& a, const Diagnostic& b) {
+    return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+  });
+  return found;
 }
 
 class StatedReader {
@@ -58,7 +69,7 @@ class StatedReader {
     for (const xml_node item : characteristics.child("CharacteristicItems").children()) {
       if (item.type() == pugi::node_element) take_characteristic(item);
     }
-    if (has_error(e_.noted())) return e_.noted();
+    if (has_error(e_.noted())) return in_order(e_.noted());
     return std::move(stated_);
   }
 
@@ -86,6 +97,10 @@ class StatedReader {
     refuse_constructed(item);
     if (!definition) return;
     take_geometry(feature, nominal, definition);
+    const std::size_t place = stated_.features.size();
+    of_item_.emplace(item.attribute("id").value(), place);
+    of_nominal_.emplace(nominal.attribute("id").value(), place);
+    of_name_.emplace(feature.name, place);
     stated_.plan.features.push_back(std::move(feature));
     stated_.features.push_back(item);
   }
@@ -113,6 +128,7 @@ class StatedReader {
       f.radius = 0.5 * e_.positive_length(definition, "Diameter");
       f.side = side_of(definition);
       f.strategy = f.kind == sphere ? Strategy(SphereStrategy{}) : Strategy(SectionStrategy{});
+      if (f.kind == cylinder) f.strategy = SectionStrategy{.sections = {0.0, 1.0}};
     }
     if (f.kind == plane) f.strategy = RingStrategy{.rings = {1.0}};
     if (f.kind == point) f.strategy = single_touch();
@@ -133,6 +149,7 @@ class StatedReader {
                              ? e_.length(definition, "SmallEndDistance")
                              : -f.radius / std::tan(f.half_angle);
     if (small < large) f.extent = AxialExtent{small, large};
+    f.strategy = SectionStrategy{.sections = {0.5 * (small + large), large}};
   }
 
   void take_line(PlannedFeature& f, xml_node nominal) {
@@ -186,7 +203,10 @@ class StatedReader {
     c.criterion = criterion_of(item.child("SubstituteFeatureAlgorithm")
                                    ? item.child("SubstituteFeatureAlgorithm")
                                    : nominal.child("SubstituteFeatureAlgorithm"));
-    take_qif_tolerance(e_, {*row, nominal, definition}, stated_.plan.features, c);
+    const auto first = c.features.empty() ? of_name_.end() : of_name_.find(c.features.front());
+    const PlannedFeature* toleranced =
+        first == of_name_.end() ? nullptr : &stated_.plan.features[first->second];
+    take_qif_tolerance(e_, {*row, nominal, definition, toleranced}, c);
     take_datums(definition, c);
     stated_.plan.characteristics.push_back(std::move(c));
     stated_.characteristics.push_back(item);
@@ -196,12 +216,11 @@ class StatedReader {
   std::vector<std::string> features_of(xml_node item, xml_node nominal) {
     std::vector<std::string> names;
     for (const xml_node id : item.child("FeatureItemIds").children("Id")) {
-      const auto at = std::ranges::find(stated_.features, e_.with_id(qif_text(id)));
-      add_feature(at, id, names);
+      add_feature(of_item_, id, names);
     }
     if (!names.empty()) return names;
     for (const xml_node id : nominal.child("FeatureNominalIds").children("Id")) {
-      add_feature(of_nominal(qif_text(id)), id, names);
+      add_feature(of_nominal_, id, names);
     }
     if (names.empty()) {
       e_.note(item, "missing-element"_id, "names no feature",
@@ -210,21 +229,17 @@ class StatedReader {
     return names;
   }
 
-  std::vector<xml_node>::iterator of_nominal(const std::string& id) {
-    return std::ranges::find_if(stated_.features, [&](xml_node feature) {
-      return qif_text(feature.child("FeatureNominalId")) == id;
-    });
-  }
+  using Places = std::unordered_map<std::string, std::size_t>;
 
-  void add_feature(std::vector<xml_node>::iterator at, xml_node id,
-                   std::vector<std::string>& names) {
-    if (at == stated_.features.end()) {
+  // The feature that `id` refers to.
+  void add_feature(const Places& places, xml_node id, std::vector<std::string>& names) {
+    const auto at = places.find(qif_text(id));
+    if (at == places.end()) {
       e_.note(id, "bad-reference"_id, fmt::format("names {}, which is no feature", qif_text(id)),
               "the id of a feature is expected");
       return;
     }
-    names.push_back(
-        stated_.plan.features[static_cast<std::size_t>(at - stated_.features.begin())].name);
+    names.push_back(stated_.plan.features[at->second].name);
   }
 
   Criterion criterion_of(xml_node algorithm) {
@@ -267,6 +282,17 @@ class StatedReader {
     stated_.plan.datum = system;
   }
 
+  // A frame that several definitions name is read once.
+  std::vector<std::string> datums_of(xml_node frame) {
+    const auto [at, is_new] = frames_.try_emplace(frame.attribute("id").value());
+    if (is_new) {
+      for (const xml_node datum : frame.child("Datums").children("Datum")) {
+        take_datum(datum, at->second);
+      }
+    }
+    return at->second;
+  }
+
   void take_datum(xml_node datum, std::vector<std::string>& names) {
     const xml_node simple = datum.child("SimpleDatum");
     const std::string material = qif_text(simple.child("MaterialModifier"));
@@ -284,10 +310,13 @@ class StatedReader {
               "FeatureNominalIds with one Id is expected");
       return;
     }
-    add_feature(of_nominal(qif_text(id)), id, names);
+    add_feature(of_nominal_, id, names);
   }
 
   QifElements e_;
+  Places of_item_{}, of_nominal_{};  // features by the ids of these
+  Places of_name_{};
+  std::map<std::string, std::vector<std::string>> frames_{};  // datums by the frame's id
   QifStated stated_{};
 };
 

@@ -20,9 +20,8 @@ constexpr std::array<std::string_view, 10> kKnown{
 
 class ToleranceReader {
  public:
-  ToleranceReader(QifElements& elements, const QifCharacteristic& stated,
-                  std::span<const PlannedFeature> features, PlannedCharacteristic& c)
-      : e_(elements), stated_(stated), features_(features), c_(c) {}
+  ToleranceReader(QifElements& elements, const QifCharacteristic& stated, PlannedCharacteristic& c)
+      : e_(elements), stated_(stated), c_(c) {}
 
   void read() {
     for (const xml_node child : stated_.definition.children()) {
@@ -48,12 +47,6 @@ class ToleranceReader {
   }
 
  private:
-  [[nodiscard]] const PlannedFeature* feature() const {
-    if (c_.features.empty()) return nullptr;
-    const auto at = std::ranges::find(features_, c_.features.front(), &PlannedFeature::name);
-    return at == features_.end() ? nullptr : &*at;
-  }
-
   void check_zone() {
     const xml_node condition = stated_.definition.child("MaterialCondition");
     const std::string material = qif_text(condition);
@@ -64,7 +57,7 @@ class ToleranceReader {
     const xml_node zone = stated_.definition.child("ZoneShape").first_child();
     const std::string_view name = zone.name();
     if (!zone) return;
-    const PlannedFeature* of = feature();
+    const PlannedFeature* of = stated_.feature;
     const bool planar = stated_.kind.zone == QifZone::orientation && of != nullptr &&
                         of->kind == FeatureKind::plane;
     const char* expected = planar ? "PlanarZone" : "DiametricalZone";
@@ -79,7 +72,7 @@ class ToleranceReader {
 
   // The size of the feature in the nominal geometry; nothing for a deviation.
   [[nodiscard]] std::optional<double> size() const {
-    const PlannedFeature* of = feature();
+    const PlannedFeature* of = stated_.feature;
     if (of == nullptr || stated_.kind.zone == QifZone::between) return std::nullopt;
     if (c_.kind == CharacteristicKind::half_angle) return of->half_angle;
     return c_.kind == CharacteristicKind::diameter ? 2.0 * of->radius : of->radius;
@@ -119,15 +112,14 @@ class ToleranceReader {
 
   QifElements& e_;
   const QifCharacteristic& stated_;
-  std::span<const PlannedFeature> features_;
   PlannedCharacteristic& c_;
 };
 
 }  // namespace
 
 void take_qif_tolerance(QifElements& elements, const QifCharacteristic& stated,
-                        std::span<const PlannedFeature> features, PlannedCharacteristic& c) {
-  ToleranceReader(elements, stated, features, c).read();
+                        PlannedCharacteristic& c) {
+  ToleranceReader(elements, stated, c).read();
 }
 
 }  // namespace frustum::metrology

@@ -8,7 +8,6 @@
 #pragma once
 
 #include <pugixml.hpp>
-#include <span>
 
 #include "metrology/plan/inspection_plan.hpp"
 #include "metrology/plan/qif/qif_elements.hpp"
@@ -20,10 +19,11 @@ struct QifCharacteristic {
   QifKind kind;
   pugi::xml_node nominal{};
   pugi::xml_node definition{};
+  const PlannedFeature* feature = nullptr;  // the toleranced one; null where it is not known
 };
 
-// Sets tolerance, direction and deviation of `c`, whose features are known.
+// Sets tolerance and direction of `c`.
 void take_qif_tolerance(QifElements& elements, const QifCharacteristic& stated,
-                        std::span<const PlannedFeature> features, PlannedCharacteristic& c);
+                        PlannedCharacteristic& c);
 
 }  // namespace frustum::metrology
