@@ -12,11 +12,13 @@
 #include "app/job/job.hpp"
 #include "app/job/job_evidence.hpp"
 #include "app/job/job_report.hpp"
+#include "app/job/plan_export.hpp"
 #include "app/job/trial_run.hpp"
 #include "app/view/console.hpp"
 #include "core/file_set.hpp"
 #include "core/whole_file.hpp"
 #include "metrology/plan/point_scale.hpp"
+#include "metrology/plan/qif/qif_plan.hpp"
 #include "metrology/points/point_file.hpp"
 #include "metrology/uncertainty/point_uncertainty.hpp"
 #include "report/exchange/json_report.hpp"
@@ -35,6 +37,7 @@ using metrology::LengthUnit;
 struct MeasureOptions : ResultOptions {
   std::string job{};
   std::string plan{};
+  std::string plan_export{};
   std::string points{};
   std::string mesh{};
   std::string unit{};
@@ -134,16 +137,25 @@ std::optional<Diagnostic> missing_accuracy(const CmmModel& cmm) {
 Result<metrology::Measurement> evaluated_points(const MeasureOptions& options,
                                                 const InspectionPlan& plan,
                                                 const std::optional<LengthUnit>& unit,
-                                                const CmmModel& cmm, std::string_view bytes) {
+                                                const CmmModel& cmm, std::string_view bytes,
+                                                bool has_strategies) {
   const auto meaning = options.ball_centres ? metrology::PointMeaning::ball_centre
                                             : metrology::PointMeaning::surface;
   const auto points = metrology::parse_feature_points(bytes, options.points, unit, meaning);
   if (!points) return points.error();
-  if (auto fault = metrology::scale_fault(plan, *points)) {
+  // Where a plan does not say where to touch, its size is not known.
+  auto fault = has_strategies ? metrology::scale_fault(plan, *points) : std::nullopt;
+  if (fault) {
     fault->file = options.points;
     return *std::move(fault);
   }
-  return metrology::evaluate(plan, *points, meaning, cmm);
+  auto measurement = metrology::evaluate(plan, *points, meaning, cmm);
+  if (measurement) return measurement;
+  Diagnostics faults = std::move(measurement).error();
+  for (Diagnostic& d : faults) {
+    if (d.file.empty()) d.file = options.points;
+  }
+  return faults;
 }
 
 Result<metrology::Measurement> probed_mesh(const MeasureOptions& options,
@@ -192,13 +204,28 @@ Result<report::Evidence> evidence_of(const MeasureOptions& options, const Inspec
   return evidence;
 }
 
+// Only points of surfaces can do without what a plan does not say of its probing.
+Result<metrology::ReadPlan> plan_of(const MeasureOptions& options, const std::string& bytes) {
+  const bool is_probing = !options.mesh.empty() || options.ball_centres;
+  if (!is_probing) return metrology::parse_plan_for_points(bytes, options.plan);
+  auto plan = metrology::parse_plan(bytes, options.plan);
+  if (!plan) return std::move(plan).error();
+  return metrology::ReadPlan{*std::move(plan), {}};
+}
+
 int measure_by_plan(const MeasureOptions& options) {
   ReadFiles read;
   auto bytes = read_whole_file(options.plan);
   if (!bytes) return refuse(bytes.error(), options);
   read.plan = *std::move(bytes);
-  const auto plan = metrology::parse_plan(read.plan, options.plan);
-  if (!plan) return refuse(plan.error(), options);
+  const auto planned = plan_of(options, read.plan);
+  if (!planned) return refuse(planned.error(), options);
+  const InspectionPlan* const plan = &planned->plan;
+  if (!options.plan_export.empty()) {
+    const Diagnostics faults = write_plan(options.plan_export, *plan);
+    if (!faults.empty()) return refuse(faults, options);
+    if (options.points.empty() && options.mesh.empty()) return kDone;
+  }
   const auto unit = unit_of(options.unit);
   if (!unit) return refuse(unit.error(), options);
   const auto cmm = cmm_of(options.cmm);
@@ -213,12 +240,15 @@ int measure_by_plan(const MeasureOptions& options) {
         auto points = metrology::read_point_bytes(options.points);
         if (!points) return std::move(points).error();
         read.points = *std::move(points);
-        return evaluated_points(options, *plan, *unit, *cmm, read.points);
+        return evaluated_points(options, *plan, *unit, *cmm, read.points,
+                                planned->warnings.empty());
       });
   if (!measurement) {
     write_failed_exports(*exports, measurement.error(), *plan);
     return refuse(measurement.error(), options);
   }
+  measurement->diagnostics.insert(measurement->diagnostics.begin(), planned->warnings.begin(),
+                                  planned->warnings.end());
   if (auto missing = missing_accuracy(*cmm)) {
     measurement->diagnostics.push_back(*std::move(missing));
   }
@@ -237,8 +267,17 @@ int measure_by_plan(const MeasureOptions& options) {
 
 int measure(const MeasureOptions& options) {
   const int sources = int{!options.points.empty()} + int{!options.mesh.empty()};
-  const bool by_plan = options.job.empty() && !options.plan.empty() && sources == 1;
+  const bool by_plan = options.job.empty() && !options.plan.empty() &&
+                       (sources == 1 || (sources == 0 && !options.plan_export.empty()));
   const bool by_job = !options.job.empty() && options.plan.empty() && sources == 0;
+  if (!by_plan && !options.plan_export.empty()) {
+    return conflicting(options, "--export-plan goes with --plan",
+                       "frustum measure --plan PLAN.toml --export-plan PLAN.qif");
+  }
+  if (by_plan && sources == 0 && (options.json || !options.exports.empty())) {
+    return conflicting(options, "--json and --export need --points or --mesh",
+                       "without them there is no result");
+  }
   if (by_plan && options.overrides.any()) {
     return conflicting(options, "--error, --errors, --tool-radius-error and --draw go with a job",
                        "measured points and meshes have the errors that they have");
@@ -270,7 +309,11 @@ void add_measure(Command& program) {
       "measure",
       "Measure a job's part or a mesh on the virtual CMM, or evaluate points of a real CMM");
   command.option("job", options->job, "Job file");
-  command.option("--plan", options->plan, "Inspection plan for --points or --mesh");
+  command.option("--plan", options->plan,
+                 "Inspection plan for --points or --mesh, TOML or QIF 3.0");
+  command.option("--export-plan", options->plan_export,
+                 "The plan in another form, by the extension: .qif (QIF 3.0) or .toml; needs "
+                 "neither points nor mesh");
   command.option("--points", options->points,
                  "CSV with feature,section,x,y,z, a QIF, or columns x y z or a PLY for a plan of "
                  "one feature; mm unless the file states a unit");

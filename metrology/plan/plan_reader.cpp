@@ -4,9 +4,11 @@
 
 #include "core/spline_surface.hpp"
 #include "core/toml_document.hpp"
+#include "core/whole_file.hpp"
 #include "metrology/plan/inspection_plan.hpp"
 #include "metrology/plan/plan_check.hpp"
 #include "metrology/plan/plan_names.hpp"
+#include "metrology/plan/qif/qif_plan.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -391,12 +393,19 @@ Result<InspectionPlan> read_plan(const TomlDocument& document) {
 }  // namespace
 
 Result<InspectionPlan> load_plan(const std::filesystem::path& file) {
-  auto document = TomlDocument::load(file);
-  if (!document) return std::move(document).error();
-  return read_plan(*document);
+  const auto text = read_whole_file(file);
+  if (!text) return text.error();
+  return parse_plan(*text, file);
 }
 
 Result<InspectionPlan> parse_plan(std::string_view text, const std::filesystem::path& file) {
+  if (is_qif(text, file)) {
+    auto read = parse_qif_plan(text, file);
+    if (!read) return std::move(read).error();
+    if (read->warnings.empty()) return std::move(read->plan);
+    for (Diagnostic& d : read->warnings) d.severity = Severity::error;
+    return std::move(read->warnings);
+  }
   auto document = TomlDocument::parse(text, file);
   if (!document) return std::move(document).error();
   return read_plan(*document);

@@ -6,8 +6,8 @@
 // Units  : mm, by the linear unit of the document (metres per unit)
 // Errors : what is no XML or no QIF document, a reference to nothing, points in binary form, in a
 //          coordinate system of their own, points that are centres of the ball where the surface is
-//          asked for and the other way round, lists that are no numbers; without points; with the
-//          id of the element
+//          asked for and the other way round, lists that are no numbers or not as many as `count`
+//          says; without points; with line, column and element
 // Source : QIF 3.0 (ISO 23952), QIFResults.xsd and Features.xsd
 #pragma once
 

@@ -12,6 +12,7 @@
 
 #include "core/units.hpp"
 #include "metrology/plan/plan_names.hpp"
+#include "report/exchange/dmis_text.hpp"
 #include "report/html/html_text.hpp"
 #include "report/number_text.hpp"
 #include "report/verdict.hpp"
@@ -61,25 +62,6 @@ std::string triple(const Vec3& v) {
 std::string direction(const Vec3& v) {
   return fixed_text(v.x(), 9) + "," + fixed_text(v.y(), 9) + "," + fixed_text(v.z(), 9);
 }
-
-// Labels of one file: letters, digits, _; each once.
-class Labels {
- public:
-  std::string of(std::string_view name) {
-    std::string plain;
-    for (const char c : name) {
-      const bool kept = (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-      plain += kept ? c : c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : '_';
-    }
-    if (plain.empty()) plain = "_";
-    std::string label = plain;
-    for (int k = 2; !used_.insert(label).second; ++k) label = fmt::format("{}_{}", plain, k);
-    return label;
-  }
-
- private:
-  std::set<std::string> used_{};
-};
 
 // A measured element's numbers by name.
 Vec3 vector_of(const MeasuredFeature& feature, const char* name, const Vec3& otherwise) {
@@ -157,10 +139,15 @@ std::optional<std::string> feature_text(const Element& e) {
 
 class DmisFile {
  public:
-  DmisFile(const RunReport& report, const InspectionPlan& plan) : report_(report), plan_(plan) {}
+  DmisFile(const RunReport& report, const InspectionPlan& plan)
+      : report_(report), plan_(plan), datums_(datum_names(report), feature_names(report)) {}
 
   std::string text() {
-    statement(fmt::format("FILNAM/'{}',05.3", quoted(report_.title)));
+    const std::string title = quoted(report_.title);
+    const std::string kept =
+        shortened_to(title, kDmisColumns - std::string_view("FILNAM/'',05.3").size());
+    statement(fmt::format("FILNAM/'{}',05.3", kept));
+    if (kept != title) comment(report_.title);
     comment("Made by Frustum " + report_.version);
     for (const Fact& fact : stated(report_.evidence.header)) {
       comment(fact.label + ": " + fact.value);
@@ -174,25 +161,33 @@ class DmisFile {
   }
 
  private:
+  // Features that characteristics name as datums, in the order of the file.
+  static std::vector<std::string> datum_names(const RunReport& report) {
+    std::vector<std::string> names;
+    for (const CharacteristicResult& c : report.measurement.characteristics) {
+      const DmisRow* row = dmis_row(c.kind);
+      if (row == nullptr || row->said != Said::to_datum) continue;
+      for (std::size_t k = 1; k < c.features.size(); ++k) names.push_back(c.features[k]);
+    }
+    return names;
+  }
+
+  static std::vector<std::string> feature_names(const RunReport& report) {
+    std::vector<std::string> names;
+    for (const MeasuredFeature& measured : report.measurement.features) {
+      names.push_back(measured.name);
+    }
+    return names;
+  }
+
   static std::string quoted(const std::string& text) {
     std::string plain = readable_text(text);
     std::ranges::replace(plain, '\'', ' ');
     return plain;
   }
 
-  void comment(const std::string& content) { text_ += "$$ " + readable_text(content) + "\n"; }
-
-  // Lines have 80 columns at most: one that ends with $ goes on.
-  void statement(std::string line) {
-    constexpr std::size_t kColumns = 79;
-    while (line.size() > kColumns) {
-      const std::size_t comma = line.rfind(',', kColumns - 1);
-      if (comma == std::string::npos || comma == 0) break;
-      text_ += line.substr(0, comma + 1) + "$\n";
-      line.erase(0, comma + 1);
-    }
-    text_ += line + "\n";
-  }
+  void comment(const std::string& content) { text_ += dmis_comment(readable_text(content)); }
+  void statement(const std::string& whole) { text_ += dmis_statement(whole); }
 
   [[nodiscard]] const PlannedFeature* planned(const std::string& name) const {
     const auto at = std::ranges::find(plan_.features, name, &PlannedFeature::name);
@@ -201,17 +196,6 @@ class DmisFile {
 
   void name(const MeasuredFeature& measured) {
     labels_of_features_[measured.name] = labels_.of(measured.name);
-  }
-
-  // A to Z, then AA, AB ..
-  std::string datum(const std::string& feature) {
-    const auto [at, is_new] = datums_.try_emplace(feature, "");
-    if (!is_new) return at->second;
-    std::size_t n = datums_.size() - 1;
-    std::string letters(1, static_cast<char>('A' + n % 26));
-    if (n >= 26) letters.insert(letters.begin(), static_cast<char>('A' + n / 26 - 1));
-    at->second = letters;
-    return letters;
   }
 
   struct Statements {
@@ -263,7 +247,7 @@ class DmisFile {
     const std::string verdict = outcome_of(c) == Outcome::pass ? "INTOL" : "OUTOL";
     std::string datums;
     for (std::size_t k = 1; row->said == Said::to_datum && k < c.features.size(); ++k) {
-      datums += fmt::format(",DAT({})", datum(c.features[k]));
+      datums += fmt::format(",DAT({})", datums_.of(c.features[k]));
       needed.insert(c.features[k]);
     }
     if (!datums.empty()) datums = ",RFS" + datums;
@@ -285,7 +269,9 @@ class DmisFile {
   void define_datum(const std::string& feature) {
     const auto label = labels_of_features_.find(feature);
     if (label == labels_of_features_.end() || !defined_.insert(feature).second) return;
-    statement(fmt::format("DATDEF/FA({}),DAT({})", label->second, datum(feature)));
+    const std::string letters = datums_.of(feature);
+    if (letters != feature) comment(fmt::format("datum {}: {}", letters, feature));
+    statement(fmt::format("DATDEF/FA({}),DAT({})", label->second, letters));
   }
 
   void write_points(const MeasuredFeature& measured, const std::string& label) {
@@ -296,9 +282,8 @@ class DmisFile {
       ++number;
       if (!p.point.allFinite()) continue;
       const Vec3 normal = p.normal.norm() > 0.0 ? p.normal : Vec3(Vec3::UnitZ());
-      statement(fmt::format("FA({})=FEAT/POINT,CART,{},{}",
-                            labels_.of(fmt::format("{}_P{}", label, number)), triple(p.point),
-                            direction(normal)));
+      statement(fmt::format("FA({})=FEAT/POINT,CART,{},{}", labels_.of_point(label, number),
+                            triple(p.point), direction(normal)));
     }
   }
 
@@ -316,9 +301,9 @@ class DmisFile {
   const RunReport& report_;
   const InspectionPlan& plan_;
   std::string text_{};
-  Labels labels_{};
+  DmisLabels labels_{};
   std::map<std::string, std::string> labels_of_features_{};
-  std::map<std::string, std::string> datums_{};
+  DmisDatums datums_;
   std::set<std::string> defined_{};
   std::vector<const CharacteristicResult*> others_{};
 };

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <unordered_map>
 
 #include "core/units.hpp"
+#include "metrology/plan/qif/qif_kinds.hpp"
+#include "report/exchange/qif_datums.hpp"
 #include "report/form_parameter.hpp"
 #include "report/number_text.hpp"
 #include "report/verdict.hpp"
@@ -18,52 +21,20 @@ using metrology::InspectionPlan;
 using metrology::PlannedCharacteristic;
 using pugi::xml_node;
 
-// What a definition says besides the tolerance.
-enum class Zone {
-  none,         // the tolerance is a width, nothing else
-  diameter,     // a cylinder or circle
-  orientation,  // a cylinder for an axis, two planes for a plane, with its material condition
-  position,     // as the diameter, with its material condition
-  limits,       // plus and minus about a nominal
-  between       // limits of what is between two features, along or about a direction
-};
+using Zone = metrology::QifZone;
 
 struct CharacteristicKindRow {
   std::string_view kind;  // as plans name it
-  const char* stem;       // as QIF names it
+  std::string_view stem;  // as QIF names it
   Zone zone;
 };
-constexpr std::array kCharacteristicKinds{
-    CharacteristicKindRow{"roundness", "Circularity", Zone::none},
-    CharacteristicKindRow{"cylindricity", "Cylindricity", Zone::none},
-    CharacteristicKindRow{"cone_form", "Conicity", Zone::none},
-    CharacteristicKindRow{"sphericity", "Sphericity", Zone::none},
-    CharacteristicKindRow{"flatness", "Flatness", Zone::none},
-    CharacteristicKindRow{"straightness", "Straightness", Zone::diameter},
-    CharacteristicKindRow{"axis_straightness", "Straightness", Zone::diameter},
-    CharacteristicKindRow{"parallelism", "Parallelism", Zone::orientation},
-    CharacteristicKindRow{"angularity", "Angularity", Zone::orientation},
-    CharacteristicKindRow{"perpendicularity", "Perpendicularity", Zone::orientation},
-    CharacteristicKindRow{"position", "Position", Zone::position},
-    CharacteristicKindRow{"concentricity", "Concentricity", Zone::diameter},
-    CharacteristicKindRow{"coaxiality", "Coaxiality", Zone::diameter},
-    CharacteristicKindRow{"symmetry", "Symmetry", Zone::none},
-    CharacteristicKindRow{"circular_run_out", "CircularRunout", Zone::none},
-    CharacteristicKindRow{"total_run_out", "TotalRunout", Zone::none},
-    CharacteristicKindRow{"line_profile", "LineProfile", Zone::none},
-    CharacteristicKindRow{"surface_profile", "SurfaceProfile", Zone::none},
-    CharacteristicKindRow{"half_angle", "Angle", Zone::limits},
-    CharacteristicKindRow{"radius", "Radius", Zone::limits},
-    CharacteristicKindRow{"diameter", "Diameter", Zone::limits},
-    CharacteristicKindRow{"line_distance", "DistanceBetween", Zone::between},
-    CharacteristicKindRow{"line_angle", "AngleBetween", Zone::between}};
 
 CharacteristicKindRow row_of(const CharacteristicResult& result) {
-  for (const CharacteristicKindRow& row : kCharacteristicKinds) {
-    if (row.kind == result.kind) return row;
+  for (const metrology::QifKind& row : metrology::kQifKinds) {
+    if (name_of(row.kind) == result.kind) return {result.kind, row.stem, row.zone};
   }
   if (is_angle(result)) return {result.kind, "Angle", Zone::limits};
-  return {result.kind, "OtherForm", Zone::none};
+  return {result.kind, metrology::kQifOtherForm, Zone::none};
 }
 
 std::string name_of_characteristic(const CharacteristicKindRow& row, const char* aspect) {
@@ -113,7 +84,8 @@ const char* orientation_zone(const PlannedParts& plan, const PlannedCharacterist
 }
 
 void add_definition(xml_node node, const CharacteristicKindRow& row,
-                    const CharacteristicResult& result, const char* orientation) {
+                    const CharacteristicResult& result, const char* orientation,
+                    std::optional<int> datum_frame) {
   const double tolerance = document_value(result.tolerance, result);
   if (row.zone == Zone::limits || row.zone == Zone::between) {
     const xml_node limits = add(node, "Tolerance");
@@ -123,6 +95,7 @@ void add_definition(xml_node node, const CharacteristicKindRow& row,
     return;
   }
   add_number(node, "ToleranceValue", tolerance);
+  if (datum_frame) add_reference(node, "DatumReferenceFrameId", *datum_frame);
   if (row.zone == Zone::orientation || row.zone == Zone::position) {
     add_text(node, "MaterialCondition", "NONE");
   }
@@ -212,9 +185,11 @@ void add_coverage(xml_node measurement, const CharacteristicResult& result) {
 
 CharacteristicIds add_characteristics(xml_node root, const InspectionPlan& plan,
                                       const metrology::Measurement& measurement, int standard,
-                                      int device, Ids& ids, const FeatureIds& features) {
+                                      std::optional<int> device, Ids& ids,
+                                      const FeatureIds& features) {
   CharacteristicIds found;
   if (measurement.characteristics.empty()) return found;
+  const Datums datums(root, plan, ids, features);
   const xml_node all = add(root, "Characteristics");
   add_reference(all, "FormalStandardId", standard);
   const xml_node definitions = add(all, "CharacteristicDefinitions");
@@ -227,7 +202,8 @@ CharacteristicIds add_characteristics(xml_node root, const InspectionPlan& plan,
     const int definition = ids.next(), nominal = ids.next(), item = ids.next();
     add_definition(
         add_identified(definitions, name_of_characteristic(row, "Definition"), definition), row,
-        result, orientation_zone(parts, planned));
+        result, orientation_zone(parts, planned),
+        planned == nullptr ? std::nullopt : datums.frame_of(*planned));
     const xml_node nominal_node =
         add_identified(nominals, name_of_characteristic(row, "Nominal"), nominal);
     add_reference(nominal_node, "CharacteristicDefinitionId", definition);
@@ -238,9 +214,12 @@ CharacteristicIds add_characteristics(xml_node root, const InspectionPlan& plan,
     }
     add_text(item_node, "Name", result.name);
     add_feature_ids(item_node, "FeatureItemIds", planned, features.items);
-    const xml_node devices = add(item_node, "MeasurementDeviceIds");
-    add_reference(devices, "Id", device);
-    close_list(devices);
+    if (planned != nullptr) add_algorithm(item_node, planned->criterion);
+    if (device) {
+      const xml_node devices = add(item_node, "MeasurementDeviceIds");
+      add_reference(devices, "Id", *device);
+      close_list(devices);
+    }
     add_reference(item_node, "CharacteristicNominalId", nominal);
     found[result.name] = item;
   }

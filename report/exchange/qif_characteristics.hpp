@@ -8,6 +8,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "metrology/measurement.hpp"
@@ -20,12 +21,12 @@ namespace frustum::report::qif {
 // By the name of the characteristic.
 using CharacteristicIds = std::map<std::string, int>;
 
-// <Characteristics>, a child of the root.
+// <Characteristics>, a child of the root, and the datums that it refers to; `device` measures, where one is known.
 [[nodiscard]] CharacteristicIds add_characteristics(pugi::xml_node root,
                                                     const metrology::InspectionPlan& plan,
                                                     const metrology::Measurement& measurement,
-                                                    int standard, int device, Ids& ids,
-                                                    const FeatureIds& features);
+                                                    int standard, std::optional<int> device,
+                                                    Ids& ids, const FeatureIds& features);
 
 // <MeasuredCharacteristics>
 void add_measured_characteristics(pugi::xml_node results, const metrology::InspectionPlan& plan,

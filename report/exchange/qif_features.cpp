@@ -202,6 +202,7 @@ void add_features(xml_node root, const InspectionPlan& plan, Ids& ids, FeatureId
     add_reference(item_node, "FeatureNominalId", nominal);
     add_text(item_node, "FeatureName", planned.name);
     add(add(add(add(item_node, "DeterminationMode"), "Checked"), "CheckDetails"), "Measured");
+    features.nominals[planned.name] = nominal;
     features.items[planned.name] = item;
   }
   for (const xml_node list : {definitions, nominals, items}) close_list(list);

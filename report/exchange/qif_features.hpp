@@ -17,11 +17,12 @@ namespace frustum::report::qif {
 
 // What other parts of the document refer to, by the name of the feature.
 struct FeatureIds {
+  std::map<std::string, int> nominals{};
   std::map<std::string, int> items{};
   std::map<std::string, int> measurements{};
 };
 
-// <Features>, a child of the root; fills in the items.
+// <Features>, a child of the root; fills in nominals and items.
 void add_features(pugi::xml_node root, const metrology::InspectionPlan& plan, Ids& ids,
                   FeatureIds& features);
 

@@ -1,8 +1,8 @@
 #include "report/exchange/qif_node.hpp"
 
-#include <array>
 #include <iterator>
 
+#include "metrology/plan/qif/qif_kinds.hpp"
 #include "report/html/html_text.hpp"
 #include "report/number_text.hpp"
 
@@ -39,10 +39,8 @@ pugi::xml_node add_identified(pugi::xml_node parent, const std::string& name, in
 }
 
 void add_algorithm(pugi::xml_node parent, metrology::Criterion criterion) {
-  constexpr std::array<std::string_view, 5> kNames{"LEASTSQUARES", "MINMAX", "MAXINSCRIBED",
-                                                   "MINCIRCUMSCRIBED", "ONESIDED"};
   add_text(add(parent, "SubstituteFeatureAlgorithm"), "SubstituteFeatureAlgorithmEnum",
-           kNames.at(static_cast<std::size_t>(criterion)));
+           metrology::kQifCriteria.at(static_cast<std::size_t>(criterion)));
 }
 
 void close_list(pugi::xml_node list) {

@@ -4,12 +4,14 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <sstream>
 
 #include "core/units.hpp"
 #include "report/exchange/qif_characteristics.hpp"
 #include "report/exchange/qif_features.hpp"
 #include "report/exchange/qif_node.hpp"
+#include "report/exchange/qif_plan_keys.hpp"
 #include "report/html/html_text.hpp"
 
 namespace frustum::report {
@@ -121,23 +123,79 @@ std::string text_of(const pugi::xml_document& document) {
   return text.str();
 }
 
+// The document, with what every one begins with.
+class Document {
+ public:
+  explicit Document(const std::string& title) {
+    xml_node declaration = document_.append_child(pugi::node_declaration);
+    declaration.append_attribute("version") = "1.0";
+    declaration.append_attribute("encoding") = "UTF-8";
+    root_ = document_.append_child("QIFDocument");
+    root_.append_attribute("xmlns") = "http://qifstandards.org/xsd/qif3";
+    root_.append_attribute("xmlns:xsi") = "http://www.w3.org/2001/XMLSchema-instance";
+    root_.append_attribute("xsi:schemaLocation") =
+        "http://qifstandards.org/xsd/qif3 QIFApplications/QIFDocument.xsd";
+    root_.append_attribute("versionQIF") = "3.0.0";
+    last_ = root_.append_attribute("idMax");
+    identifier_ = add_text(root_, "QPId", title);
+    add_text(add(add(root_, "Header"), "Application"), "Name", "Frustum");
+  }
+
+  [[nodiscard]] xml_node root() const { return root_; }
+  Ids& ids() { return ids_; }
+
+  // Its number is made from all that is in it.
+  std::string text() {
+    last_ = ids_.last();
+    identifier_.text().set(uuid_of(text_of(document_)).c_str());
+    return text_of(document_);
+  }
+
+ private:
+  pugi::xml_document document_{};
+  xml_node root_{};
+  pugi::xml_attribute last_{};
+  xml_node identifier_{};
+  Ids ids_{};
+};
+
+// What the value is compared with, in mm or deg; nothing for zones.
+std::optional<double> nominal_of(const metrology::InspectionPlan& plan,
+                                 const metrology::PlannedCharacteristic& planned) {
+  using enum metrology::CharacteristicKind;
+  const bool is_size =
+      planned.kind == radius || planned.kind == diameter || planned.kind == half_angle;
+  if (compares_lines(planned.kind) || (is_size && planned.deviation)) return 0.0;
+  const metrology::PlannedFeature* feature =
+      planned.features.empty() ? nullptr : find_feature(plan, planned.features.front());
+  if (!is_size || feature == nullptr) return std::nullopt;
+  if (planned.kind == half_angle) return feature->half_angle * kDegPerRad;
+  return planned.kind == diameter ? 2.0 * feature->radius : feature->radius;
+}
+
+// A measurement of nothing: every characteristic as the plan has it.
+metrology::Measurement unmeasured(const metrology::InspectionPlan& plan) {
+  metrology::Measurement none;
+  for (const metrology::PlannedCharacteristic& planned : plan.characteristics) {
+    const bool angle = is_angle(planned.kind);
+    metrology::CharacteristicResult c;
+    c.name = planned.name;
+    c.kind = std::string(name_of(planned.kind));
+    c.features = planned.features;
+    c.unit = angle ? "deg" : "mm";
+    c.tolerance = angle ? planned.tolerance * kDegPerRad : planned.tolerance;
+    c.nominal = nominal_of(plan, planned);
+    none.characteristics.push_back(std::move(c));
+  }
+  return none;
+}
+
 }  // namespace
 
 std::string qif_results(const RunReport& report, const metrology::InspectionPlan& plan) {
-  pugi::xml_document document;
-  xml_node declaration = document.append_child(pugi::node_declaration);
-  declaration.append_attribute("version") = "1.0";
-  declaration.append_attribute("encoding") = "UTF-8";
-  xml_node root = document.append_child("QIFDocument");
-  root.append_attribute("xmlns") = "http://qifstandards.org/xsd/qif3";
-  root.append_attribute("xmlns:xsi") = "http://www.w3.org/2001/XMLSchema-instance";
-  root.append_attribute("xsi:schemaLocation") =
-      "http://qifstandards.org/xsd/qif3 QIFApplications/QIFDocument.xsd";
-  root.append_attribute("versionQIF") = "3.0.0";
-  pugi::xml_attribute last = root.append_attribute("idMax");
-  xml_node identifier = add_text(root, "QPId", report.title);
-  add_text(add(add(root, "Header"), "Application"), "Name", "Frustum");
-  Ids ids;
+  Document document(report.title);
+  const xml_node root = document.root();
+  Ids& ids = document.ids();
   const int standard = ids.next(), device = ids.next();
   add_standard(root, standard);
   add_units(root);
@@ -146,10 +204,24 @@ std::string qif_results(const RunReport& report, const metrology::InspectionPlan
   add_features(root, plan, ids, features);
   const CharacteristicIds items =
       add_characteristics(root, plan, report.measurement, standard, device, ids, features);
+  add_plan_keys(root, plan, features, items);
   add_results(root, report, plan, ids, features, items);
-  last = ids.last();
-  identifier.text().set(uuid_of(text_of(document)).c_str());
-  return text_of(document);
+  return document.text();
+}
+
+std::string qif_plan(const metrology::InspectionPlan& plan) {
+  Document document(plan.title);
+  const xml_node root = document.root();
+  Ids& ids = document.ids();
+  const int standard = ids.next();
+  add_standard(root, standard);
+  add_units(root);
+  FeatureIds features;
+  add_features(root, plan, ids, features);
+  const CharacteristicIds items =
+      add_characteristics(root, plan, unmeasured(plan), standard, {}, ids, features);
+  add_plan_keys(root, plan, features, items);
+  return document.text();
 }
 
 }  // namespace frustum::report

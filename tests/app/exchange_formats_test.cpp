@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "tests/app/command_line.hpp"
 
@@ -17,6 +19,15 @@ class ExchangeFormatsSystem : public CommandLine {
  protected:
   void write(const std::string& file, const std::string& text) const {
     std::ofstream(folder_ / file, std::ios::binary) << text;
+  }
+
+  void expect_refusal(const std::string& arguments, const std::vector<std::string>& words) const {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments << outcome.out;
+    for (const std::string& word : words) {
+      EXPECT_NE(outcome.err.find(word), std::string::npos)
+          << "'" << word << "' in: " << outcome.err;
+    }
   }
 
   // A bore of three lobes, 1 um, and its plan.
@@ -82,6 +93,59 @@ TEST_F(ExchangeFormatsSystem, QifGoesBothWays) {
   EXPECT_EQ(unit.exit_code, 2);
   EXPECT_NE(unit.err.find("states the unit 1 mm, --unit says"), std::string::npos) << unit.err;
   EXPECT_EQ(run("fit cylinder r.qif --feature bore").exit_code, 0);
+}
+
+// The plan as QIF, the results as a plan, and back to TOML: the same values to the last bit.
+TEST_F(ExchangeFormatsSystem, QifPlansGoBothWays) {
+  ASSERT_EQ(run("program cone --machine iwf-bc --out piece").exit_code, 0);
+  ASSERT_LE(run("run piece/job.toml --out out --quiet --error EXX=\"linear 5um\"").exit_code, 1);
+  const std::string plan = "measure --plan piece/cone.plan.toml --points out/points.csv ";
+  const Outcome first = run(plan + "--json --export r.qif --export-plan made/p.qif");
+  ASSERT_LE(first.exit_code, 1) << first.err;
+  ASSERT_EQ(run("measure --plan made/p.qif --export-plan back.toml").exit_code, 0);
+  const json expected = json::parse(first.out)["characteristics"];
+  ASSERT_GT(expected.size(), 5U);
+  for (const char* file : {"made/p.qif", "r.qif", "back.toml"}) {
+    const Outcome again =
+        run(std::string("measure --plan ") + file + " --points out/points.csv --json");
+    ASSERT_EQ(again.exit_code, first.exit_code) << again.err;
+    EXPECT_EQ(json::parse(again.out)["characteristics"], expected) << file;
+  }
+  ASSERT_EQ(run("measure --plan piece/cone.plan.toml --export-plan same.toml").exit_code, 0);
+  EXPECT_EQ(read(folder_ / "back.toml"), read(folder_ / "same.toml"));
+  expect_refusal("measure --plan piece/cone.plan.toml --export-plan p.xml",
+                 {"p.xml", "known: .qif .toml"});
+  expect_refusal("measure --plan piece/cone.plan.toml --export-plan p.qif --json", {"--points"});
+  expect_refusal("measure piece/job.toml --export-plan p.qif", {"--export-plan goes with --plan"});
+  std::string cut = read(folder_ / "made/p.qif");
+  write("cut.qif", cut.substr(0, cut.size() / 2));
+  expect_refusal("measure --plan cut.qif --points out/points.csv", {"cut.qif:", "no XML"});
+}
+
+// A document without Frustum's keys evaluates points, says what it does not state, and cannot probe.
+TEST_F(ExchangeFormatsSystem, QifPlansOfOthersEvaluatePointsOnly) {
+  write_bore();
+  ASSERT_EQ(run("measure --plan bore.plan.toml --export-plan p.qif").exit_code, 0);
+  std::string text = read(folder_ / "p.qif");
+  for (std::size_t at = 0; (at = text.find("name=\"plan.", at)) != std::string::npos;) {
+    text.replace(at, 11, "name=\"mine.");
+  }
+  write("others.qif", text);
+  const Outcome measured = run("measure --plan others.qif --points p.csv --json");
+  ASSERT_LE(measured.exit_code, 1) << measured.err;
+  EXPECT_NE(measured.out.find("does not say where to touch bore"), std::string::npos);
+  expect_refusal("measure --plan others.qif --points p.csv --ball-centres",
+                 {"others.qif:", "does not say where to touch bore"});
+}
+
+// The file of the points is named where they lack those of a feature.
+TEST_F(ExchangeFormatsSystem, MissingPointsNameTheirFile) {
+  ASSERT_EQ(run("program cone --machine iwf-bc --out piece").exit_code, 0);
+  write("few.csv", "feature,section,x,y,z\nA,0,1,0,0.75\nA,0,0,1,0.75\nA,0,-1,0,0.75\n");
+  const Outcome few = run("measure --plan piece/cone.plan.toml --points few.csv");
+  EXPECT_EQ(few.exit_code, 2);
+  EXPECT_EQ(few.err.find("few.csv"), 0U) << few.err;
+  EXPECT_NE(few.err.find("has no points"), std::string::npos) << few.err;
 }
 
 TEST_F(ExchangeFormatsSystem, ToolsAreDrawn) {

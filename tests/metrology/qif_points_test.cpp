@@ -84,7 +84,8 @@ TEST(QifPoints, AreRefusedWhereTheyAreNotTheSurface) {
   };
   EXPECT_EQ(id_of("no xml"), "bad-xml");
   EXPECT_EQ(id_of("<other/>"), "not-qif");
-  EXPECT_EQ(id_of("<QIFDocument/>"), "length-unit");
+  EXPECT_EQ(id_of("<QIFDocument/>"), "qif-version");
+  EXPECT_EQ(id_of("<QIFDocument versionQIF=\"3.0.0\"/>"), "length-unit");
   EXPECT_EQ(id_of(document("", "")), "file-without-points");
   EXPECT_EQ(id_of(document(measured(9, kWhole), kSet)), "bad-reference");
   EXPECT_EQ(id_of(document(measured(4, "<WholePointSetId>3</WholePointSetId>"), kSet)),
@@ -105,6 +106,35 @@ TEST(QifPoints, AreRefusedWhereTheyAreNotTheSurface) {
             "own-frame");
   EXPECT_EQ(id_of(replaced("9</Points>", "nan</Points>")), "bad-numbers");
   EXPECT_EQ(id_of(replaced("9</Points>", "</Points>")), "bad-numbers");
+}
+
+// Line and column as editors count them; the line of a feature's points is that of its measurement.
+TEST(QifPoints, HaveAPlaceInTheDocument) {
+  const auto said = [](const std::string& text) {
+    const auto found = parse_feature_points(text, "p.qif");
+    return found ? std::string() : to_string(found.error().front());
+  };
+  const std::string text = document(measured(4, kWhole), kSet);
+  EXPECT_EQ(said(text.substr(0, text.size() - 20)),
+            "p.qif:12:50: error: no XML: Error parsing end element tag (hint: an XML document of "
+            "QIF 3.0 (ISO 23952) is expected, whole)");
+  EXPECT_EQ(
+      said(document(measured(4, "<WholePointSetId>47</WholePointSetId>"), kSet)),
+      "p.qif:10:107: error: <WholePointSetId> of 'bore' names point set 47, which is not there "
+      "(hint: the id of a MeasuredPointSet)");
+  std::string counted = text;
+  counted.replace(counted.find("count=\"3\""), 9, "count=\"4\"");
+  EXPECT_EQ(said(counted),
+            "p.qif:10:226: error: <MeasuredPointSet id=\"8\"> states count=\"4\", its Points are 3 "
+            "(hint: as many points as count says are expected: is the set whole?)");
+  std::string old = text;
+  old.replace(old.find("3.0.0"), 5, "2.1.0");
+  EXPECT_EQ(said(old),
+            "p.qif:2:1: error: <QIFDocument> is of versionQIF \"2.1.0\" (hint: "
+            "versionQIF=\"3.0.0\" is expected: save the document as QIF 3.0)");
+  const auto found = parse_feature_points(text, "p.qif");
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->front().line, 10);
 }
 
 }  // namespace

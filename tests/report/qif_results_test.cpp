@@ -111,8 +111,9 @@ std::string child_text(xml_node node, std::initializer_list<const char*> path) {
 const std::map<std::string, std::vector<std::string>>& sequences() {
   static const std::map<std::string, std::vector<std::string>> kSequences{
       {"QIFDocument",
-       {"QPId", "Version", "Header", "StandardsDefinitions", "FileUnits", "MeasurementResources",
-        "Product", "Features", "Characteristics", "Plan", "Results"}},
+       {"QPId", "Attributes", "Version", "Header", "StandardsDefinitions", "FileUnits",
+        "DatumDefinitions", "DatumReferenceFrames", "MeasurementResources", "Product", "Features",
+        "Characteristics", "Plan", "Results"}},
       {"Features", {"FeatureDefinitions", "FeatureNominals", "FeatureItems"}},
       {"Characteristics",
        {"FormalStandardId", "CharacteristicDefinitions", "CharacteristicNominals",
@@ -148,7 +149,8 @@ const std::map<std::string, std::vector<std::string>>& sequences() {
       {"DistanceBetweenCharacteristicNominal",
        {"CharacteristicDefinitionId", "TargetValue", "AnalysisVector", "AnalysisMode"}},
       {"DiameterCharacteristicItem",
-       {"Name", "FeatureItemIds", "MeasurementDeviceIds", "CharacteristicNominalId"}},
+       {"Attributes", "Name", "FeatureItemIds", "SubstituteFeatureAlgorithm",
+        "MeasurementDeviceIds", "CharacteristicNominalId"}},
       {"DiameterCharacteristicMeasurement",
        {"Attributes", "Status", "CharacteristicItemId", "FeatureMeasurementIds",
         "SubstituteFeatureAlgorithm", "Value"}}};
@@ -176,6 +178,10 @@ TEST(QifResults, CountsItsLists) {
   const auto document = parsed(qif_results(measured_part().report, measured_part().plan));
   const std::set<std::string> lists{"StandardsDefinitions",
                                     "MeasurementDevices",
+                                    "DatumDefinitions",
+                                    "DatumReferenceFrames",
+                                    "Datums",
+                                    "FeatureNominalIds",
                                     "FeatureDefinitions",
                                     "FeatureNominals",
                                     "FeatureItems",
@@ -239,6 +245,7 @@ TEST(QifResults, RefersToWhatItHolds) {
     } else if (name == "Id") {
       const std::string end = parent == "FeatureItemIds"          ? "FeatureItem"
                               : parent == "FeatureMeasurementIds" ? "FeatureMeasurement"
+                              : parent == "FeatureNominalIds"     ? "FeatureNominal"
                                                                   : "MeasurementDevice";
       EXPECT_TRUE(target().ends_with(end)) << target() << " in " << parent;
       ++followed;
@@ -257,6 +264,10 @@ TEST(QifResults, WritesDecimalsWithoutExponent) {
   const auto document = parsed(qif_results(measured_part().report, measured_part().plan));
   const std::set<std::string> words{"QPId",
                                     "Name",
+                                    "DatumLabel",
+                                    "MaterialModifier",
+                                    "ReferencedComponent",
+                                    "PrecedenceEnum",
                                     "Designator",
                                     "StandardsOrganizationEnum",
                                     "SIUnitName",

@@ -32,8 +32,13 @@ metrology::PlannedFeature planned_as(FeatureKind kind) {
 }
 
 // Every kind of characteristic of every kind of feature, meaningful or not.
-std::string document_of_all_kinds() {
+struct Documents {
+  std::string results{};
+  std::string plan{};
+};
+Documents documents_of_all_kinds() {
   metrology::InspectionPlan plan;
+  plan.datum = metrology::DatumSystem{"plane", "cylinder", "line"};
   RunReport report;
   report.title = "every kind";
   for (std::size_t f = 0; f < metrology::kFeatureNames.size(); ++f) {
@@ -70,7 +75,21 @@ std::string document_of_all_kinds() {
       report.measurement.characteristics.push_back(std::move(result));
     }
   }
-  return qif_results(report, plan);
+  // Of one feature: in the datum system.
+  for (const CharacteristicKind kind :
+       {CharacteristicKind::position, CharacteristicKind::surface_profile,
+        CharacteristicKind::circular_run_out}) {
+    auto planned = metrology::measured::characteristic(kind, {"cylinder"});
+    planned.name = "alone " + std::string(name_of(kind));
+    metrology::CharacteristicResult result;
+    result.name = planned.name;
+    result.kind = std::string(name_of(kind));
+    result.unit = "um";
+    result.tolerance = 4.0;
+    plan.characteristics.push_back(std::move(planned));
+    report.measurement.characteristics.push_back(std::move(result));
+  }
+  return {qif_results(report, plan), qif_plan(plan)};
 }
 
 TEST(QifSchemaReference, Fault2_54_EveryKindIsQif30) {
@@ -78,15 +97,18 @@ TEST(QifSchemaReference, Fault2_54_EveryKindIsQif30) {
   if (schema == nullptr || std::system("command -v xmllint >/dev/null") != 0) {
     GTEST_SKIP() << "no schema: set FRUSTUM_QIF_SCHEMA to QIFDocument.xsd and install xmllint";
   }
-  const fs::path file = fs::path(testing::TempDir()) / "frustum_every_kind.qif";
-  std::ofstream(file) << document_of_all_kinds();
-  const std::string command =
-      "xmllint --noout --schema '" + std::string(schema) + "' '" + file.string() + "'";
-  EXPECT_EQ(std::system(command.c_str()), 0);
+  const Documents documents = documents_of_all_kinds();
+  for (const std::string& text : {documents.results, documents.plan}) {
+    const fs::path file = fs::path(testing::TempDir()) / "frustum_every_kind.qif";
+    std::ofstream(file) << text;
+    const std::string command =
+        "xmllint --noout --schema '" + std::string(schema) + "' '" + file.string() + "'";
+    EXPECT_EQ(std::system(command.c_str()), 0);
+  }
 }
 
 TEST(QifSchema, Fault2_54_TheLinesOfAProfileLieInAPlane) {
-  const std::string text = document_of_all_kinds();
+  const std::string text = documents_of_all_kinds().results;
   std::size_t profiles = 0;
   for (auto at = text.find("<LineProfileCharacteristicNominal "); at != std::string::npos;
        at = text.find("<LineProfileCharacteristicNominal ", at + 1)) {

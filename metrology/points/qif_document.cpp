@@ -1,0 +1,127 @@
+#include "metrology/points/qif_document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "metrology/points/line_words.hpp"
+
+namespace frustum::metrology {
+namespace {
+
+using pugi::xml_node;
+
+constexpr std::string_view kBlank = " \t\r\n";
+
+// 0.001 times 1000 is a millimetre, whatever rounding says.
+double as_millimetres(double mm) {
+  constexpr double kRounding = 1e-12;
+  for (const double exact : {1.0, 25.4, 1000.0}) {
+    if (std::abs(mm / exact - 1.0) < kRounding) return exact;
+  }
+  return mm;
+}
+
+std::string element_text(xml_node element) {
+  const auto id = element.attribute("id");
+  return id ? fmt::format("<{} id=\"{}\">", element.name(), id.value())
+            : fmt::format("<{}>", element.name());
+}
+
+}  // namespace
+
+Result<QifDocument> QifDocument::parse(std::string_view bytes) {
+  QifDocument document;
+  const auto parsed = document.document_->load_buffer(bytes.data(), bytes.size());
+  if (parsed.encoding == pugi::encoding_utf8) {
+    document.line_starts_.push_back(0);
+    for (std::size_t at = bytes.find('\n'); at != bytes.npos; at = bytes.find('\n', at + 1)) {
+      document.line_starts_.push_back(at + 1);
+    }
+  }
+  if (!parsed) {
+    Diagnostic d = error("bad-xml"_id, fmt::format("no XML: {}", parsed.description()),
+                         "an XML document of QIF 3.0 (ISO 23952) is expected, whole");
+    const auto offset = std::clamp<std::ptrdiff_t>(parsed.offset, 0, std::ssize(bytes));
+    const Place place = document.place_at(static_cast<std::size_t>(offset));
+    d.line = place.line;
+    d.column = place.column;
+    return d;
+  }
+  if (auto problem = document.take_root()) return *std::move(problem);
+  if (auto problem = document.take_unit()) return *std::move(problem);
+  return document;
+}
+
+std::optional<Diagnostic> QifDocument::take_root() {
+  root_ = document_->document_element();
+  if (std::string_view(root_.name()) != "QIFDocument") {
+    return fault(root_, "not-qif"_id, "is no <QIFDocument>",
+                 "the root element of a QIF document is expected");
+  }
+  const std::string_view version = root_.attribute("versionQIF").value();
+  if (version.starts_with("3.")) return std::nullopt;
+  return fault(
+      root_, "qif-version"_id,
+      version.empty() ? "states no versionQIF" : fmt::format("is of versionQIF \"{}\"", version),
+      "versionQIF=\"3.0.0\" is expected: save the document as QIF 3.0");
+}
+
+std::optional<Diagnostic> QifDocument::take_unit() {
+  const xml_node unit = root_.child("FileUnits").child("PrimaryUnits").child("LinearUnit");
+  // Without a conversion the unit is the SI's own.
+  const xml_node factor = unit.child("UnitConversion").child("Factor");
+  constexpr double kMmPerMetre = 1e3;
+  const double metres = factor ? factor.text().as_double() : 1.0;
+  if (!unit || !(metres > 0.0) || !std::isfinite(metres)) {
+    return fault(unit ? unit : root_, "length-unit"_id, "states no unit of length",
+                 "FileUnits/PrimaryUnits/LinearUnit says how many metres a unit is");
+  }
+  mm_ = as_millimetres(kMmPerMetre * metres);
+  return std::nullopt;
+}
+
+QifDocument::Place QifDocument::place_at(std::size_t offset) const {
+  if (line_starts_.empty()) return {};
+  const auto next = std::ranges::upper_bound(line_starts_, offset);
+  const auto line = next - line_starts_.begin();
+  return {static_cast<int>(line), static_cast<int>(offset - *std::prev(next)) + 1};
+}
+
+QifDocument::Place QifDocument::place_of(xml_node element) const {
+  // The offset of the name, which < is before.
+  const std::ptrdiff_t name = element.offset_debug();
+  return name < 1 ? Place() : place_at(static_cast<std::size_t>(name) - 1);
+}
+
+Diagnostic QifDocument::fault(xml_node element, DiagnosticId id, std::string_view message,
+                              std::string hint) const {
+  Diagnostic d = error(id, fmt::format("{} {}", element_text(element), message), std::move(hint));
+  const Place place = place_of(element);
+  d.line = place.line;
+  d.column = place.column;
+  return d;
+}
+
+std::optional<std::vector<double>> qif_numbers(std::string_view text) {
+  std::vector<double> numbers;
+  while (true) {
+    const std::size_t begin = text.find_first_not_of(kBlank);
+    if (begin == text.npos) return numbers;
+    const std::size_t end = std::min(text.find_first_of(kBlank, begin), text.size());
+    const auto number = number_in(text.substr(begin, end - begin));
+    if (!number || !std::isfinite(*number)) return std::nullopt;
+    numbers.push_back(*number);
+    text.remove_prefix(end);
+  }
+}
+
+std::string qif_text(xml_node element) {
+  const std::string_view text = element.text().get();
+  const std::size_t begin = text.find_first_not_of(kBlank);
+  if (begin == text.npos) return {};
+  return std::string(text.substr(begin, text.find_last_not_of(kBlank) - begin + 1));
+}
+
+}  // namespace frustum::metrology
