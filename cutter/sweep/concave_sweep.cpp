@@ -8,6 +8,7 @@
 
 #include "core/constants.hpp"
 #include "core/golden_section.hpp"
+#include "cutter/sweep/meridian_clearance.hpp"
 
 namespace frustum::cutter {
 namespace {
@@ -56,36 +57,6 @@ class LeastStep {
   int slid_ = 0;
 };
 
-double to_line(const MeridianPoint& p, const MeridianPoint& a, const MeridianPoint& b) {
-  const double r = b.r - a.r, z = b.z - a.z, whole = r * r + z * z;
-  const double share =
-      whole > 0.0 ? std::clamp(((p.r - a.r) * r + (p.z - a.z) * z) / whole, 0.0, 1.0) : 0.0;
-  const double dr = p.r - a.r - share * r, dz = p.z - a.z - share * z;
-  return std::sqrt(dr * dr + dz * dz);
-}
-// Twice the area of a triangle, above 0 counter-clockwise.
-double twice_area(const MeridianPoint& a, const MeridianPoint& b, const MeridianPoint& c) {
-  return (b.r - a.r) * (c.z - a.z) - (b.z - a.z) * (c.r - a.r);
-}
-double away(const MeridianPoint& a, const MeridianPoint& b) {
-  return std::sqrt((a.r - b.r) * (a.r - b.r) + (a.z - b.z) * (a.z - b.z));
-}
-
-// No place on the straight line from a to b is nearer to the piece than this; of an arc, to its
-// circle.
-double between(const MeridianPoint& a, const MeridianPoint& b, const GeneratrixSegment& piece) {
-  if (is_arc(piece)) {
-    const double inside = piece.arc_radius - std::max(away(a, piece.centre), away(b, piece.centre));
-    return std::max({0.0, inside, to_line(piece.centre, a, b) - piece.arc_radius});
-  }
-  const bool crosses =
-      twice_area(a, b, piece.from) * twice_area(a, b, piece.to) <= 0.0 &&
-      twice_area(piece.from, piece.to, a) * twice_area(piece.from, piece.to, b) <= 0.0;
-  if (crosses) return 0.0;
-  return std::min({to_line(a, piece.from, piece.to), to_line(b, piece.from, piece.to),
-                   to_line(piece.from, a, b), to_line(piece.to, a, b)});
-}
-
 }  // namespace
 
 double concave_accuracy(const Body& body) {
@@ -130,33 +101,6 @@ ConcaveSweep::Look ConcaveSweep::look(double s, double t) const {
           std::abs(ray_.direction.dot(pose.axis))};
 }
 
-// The generatrix stays so far from where a place is on the meridian, which is on the straight line
-// from `a` to `b` or beside it, in radius by no more than `aside`.
-double ConcaveSweep::clearance(const MeridianPoint& a, const MeridianPoint& b, double aside) const {
-  // A line that is nearly level is made longer: what is beside it in radius is above or below it
-  // by little.
-  constexpr double kLevel = 0.1;
-  MeridianPoint from = a, to = b;
-  if (from.r > to.r) std::swap(from, to);
-  double lost = aside;
-  if (const double rise = std::abs(to.z - from.z), run = to.r - from.r; rise <= kLevel * run) {
-    const double slope = (to.z - from.z) / run;
-    from = {from.r - aside, from.z - slope * aside};
-    to = {to.r + aside, to.z + slope * aside};
-    lost = 2.0 * rise / run * aside;
-  } else if (run + rise < 2.0 * aside) {
-    const double z = 0.5 * (from.z + to.z);
-    lost = 0.5 * rise;
-    from = {from.r - aside, z};
-    to = {to.r + aside, z};
-  }
-  double least = kInfinity;
-  for (const GeneratrixSegment& piece : body_.generatrix().segments())
-    least = std::min(least, between(from, to, piece));
-  const MeridianPoint rim = body_.generatrix().segments().back().to;
-  return std::min(least, between(from, to, line(rim, {0.0, rim.z}))) - lost;
-}
-
 // A body of revolution is between the planes of its ends, so that no distance is less than the
 // height in front of one of them, nor of a place behind one the depth more than its height. The
 // height is linear along the ray, and within bend dt^2 / 8 of a straight line in time. A place
@@ -176,10 +120,11 @@ double ConcaveSweep::least_between(const Look& a, const Look& b, double reach,
   const double radius = std::min(a.place.r, b.place.r) - 0.5 * moved;
   if (!(radius > 0.0)) return least;
   const double aside = std::min(moved, moved * moved / (8.0 * radius) + bulge) + reach;
-  return std::max(least, clearance(a.place, b.place, aside) - climb - bulge + kOnSurface);
+  return std::max(least, clearance_along(body_.generatrix(), a.place, b.place, aside) - climb -
+                             bulge + kOnSurface);
 }
 double ConcaveSweep::least_beside(const Look& at, double reach) const {
-  return least_between(at, at, reach, 0.0);
+  return least_between(at, at, reach, -kInfinity);
 }
 
 bool ConcaveSweep::is_of_body(const SweptEnd& end) const {
@@ -325,7 +270,7 @@ bool ConcaveSweep::covers_along(double s, double t, double next, double next_t) 
   const double radius = std::min(a.place.r, b.place.r) - 0.5 * moved;
   if (!(radius > 0.0)) return false;
   const double aside = std::min(moved, moved * moved / (8.0 * radius) + bulge);
-  return clearance(a.place, b.place, aside) - bulge > kOnSurface;
+  return clearance_along(body_.generatrix(), a.place, b.place, aside) - bulge > kOnSurface;
 }
 
 // How moments follow the place depends on where the body passes it: as fast as that goes, or some
@@ -352,6 +297,23 @@ ConcaveSweep::Covered ConcaveSweep::covered_along(double s, double t, double hi,
   return {s, t};
 }
 
+// Either way; the one that was longer the last time is taken first.
+ConcaveSweep::Covered ConcaveSweep::covered_from(double s, Nearest& here, double hi,
+                                                 Following& last) const {
+  constexpr double kShort = 0.02;  // mm: not worth while
+  if (last.is_longer) {
+    const Covered along = covered_along(s, here.t, hi, last);
+    if (along.until > s) return along;
+  }
+  const Covered around = covered_around(s, here.t, hi);
+  last.is_longer = false;
+  if (around.until >= std::min(hi, s + kShort)) return around;
+  here = nearest(s, here.t, Want::least);
+  const Covered along = covered_along(s, here.t, hi, last);
+  last.is_longer = along.until > around.until;
+  return last.is_longer ? along : around;
+}
+
 void ConcaveSweep::walk(double lo, double hi, std::vector<SegmentInterval>& found) const {
   LeastStep least;
   double s = lo, stretch = hi - lo;
@@ -362,16 +324,15 @@ void ConcaveSweep::walk(double lo, double hi, std::vector<SegmentInterval>& foun
   if (here.distance < 0.0) begin = SweptEnd{s, here.t};
   while (s < hi) {
     if (begin) {
-      Covered covered = covered_around(s, here.t, hi);
-      constexpr double kShort = 0.02;  // mm: not worth while
-      if (covered.until < std::min(hi, s + kShort)) {
-        here = nearest(s, here.t, Want::least);
-        const Covered along = covered_along(s, here.t, hi, follow);
-        if (along.until > covered.until) covered = along;
-      }
+      const Covered covered = covered_from(s, here, hi, follow);
       if (covered.until > s + kLeastStep) {
         s = covered.until;
         here = nearest(s, covered.t, Want::side);
+        if (here.distance < 0.0) continue;
+        // Within rounding of the surface.
+        found.push_back({*begin, {s, covered.t}});
+        begin.reset();
+        is_known = true;
         continue;
       }
     } else {
@@ -431,6 +392,10 @@ ConcaveSweep::Nearest ConcaveSweep::nearest(double s, double likely, Want want) 
     return here;
   };
   const auto is_settled = [&] { return want == Want::side && best.distance < 0.0; };
+  const Look there = look(s, likely);
+  best = {there.distance, there.t};
+  if (is_settled()) return best;
+  looked.push_back(there);
   const int middle = std::clamp(static_cast<int>(std::lround(likely * steps_)), 0, steps_);
   const Look first = look_at(middle);
   if (is_settled()) return best;

@@ -73,8 +73,6 @@ class ConcaveSweep {
   enum class Want : bool { least, side };
   [[nodiscard]] Look look(double s, double t) const;
   [[nodiscard]] double distance(double s, double t) const { return look(s, t).distance; }
-  [[nodiscard]] double clearance(const MeridianPoint& a, const MeridianPoint& b,
-                                 double aside) const;
   // No distance is less at any moment from a to b, all along the ray as far as `reach` from their
   // place; more than `enough` is not asked for. And at one moment.
   [[nodiscard]] double least_between(const Look& a, const Look& b, double reach,
@@ -95,8 +93,10 @@ class ConcaveSweep {
   struct Following {
     double stretch = 0.0;
     double pace = 0.0;
+    bool is_longer = false;  // than what one moment covers
   };
   [[nodiscard]] Covered covered_along(double s, double t, double hi, Following& last) const;
+  [[nodiscard]] Covered covered_from(double s, Nearest& here, double hi, Following& last) const;
   // `likely`: a moment to begin with.
   [[nodiscard]] Nearest nearest(double s, double likely, Want want) const;
   [[nodiscard]] Nearest lowest(double s, double lo, double hi) const;

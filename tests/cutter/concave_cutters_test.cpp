@@ -224,5 +224,47 @@ TEST(HollowCutterLaws, ShallowCutsAlongARayAreWalkedInFewSteps) {
   EXPECT_LT(sweep.looks(), 2'000'000U);
 }
 
+// A ray in the end plane at one moment, and next to it by what the tool turns at all others: stretches
+// of it are left aside, or covered by moments that follow it, each in a few steps.
+TEST(HollowCutterLaws, ToolsThatTurnLeaveARayInTheEndPlaneInFewLooks) {
+  const Vec3 axis = Vec3(0.1, 0.2, 1.0).normalized(), tip(0.123, 0.456, 0.789);
+  const Vec3 feed = axis.cross(Vec3(0.3, 0.7, 0.05)).normalized();
+  std::size_t most = 0;
+  for (const Cutter& tool : {with_level_land(),
+                             *Cutter::make({.type = CutterType::bull,
+                             .diameter = {12.0},
+                             .length = {80.0},
+                             .flute_length = {30.0},
+                             .corner_radius = {0.8},
+                             .end_angle = {2.0 * kRadPerDegree}}),
+                             hollow_end(0.5 * kRadPerDegree)}) {
+    for (const double turn : {1e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.04, 0.2, 1.0}) {
+      for (const double run : {0.0, 3.0, 50.0}) {
+        for (const Vec3& towards : {feed, Vec3(axis.cross(feed))}) {
+          const Vec3 turned = std::cos(turn) * axis + std::sin(turn) * towards;
+          const SegmentMotion motion({tip, axis}, {tip + run * feed, turned.normalized()},
+                                     tool.body().reach());
+          for (const double share : {0.0, 0.37, 1.0}) {
+            const ToolPose at = motion.at(share);
+            const Vec3 along = at.axis.cross(Vec3(0.6, 0.8, 0.1)).normalized();
+            const Ray ray{at.tip + 5.0 * at.axis.cross(along) - 50.0 * along, along};
+            const cutter::ConcaveSweep sweep(tool.body(), motion, ray);
+            std::vector<cutter::SegmentInterval> found;
+            sweep.walk(0.0, 120.0, found);
+            most = std::max(most, sweep.looks());
+            for (const cutter::SegmentInterval& i : found) {
+              for (const cutter::SweptEnd& end : {i.lo, i.hi}) {
+                const double away = tool.body().distance(motion.at(end.t), ray.at(end.s));
+                EXPECT_NEAR(away, 0.0, 1e-6) << turn << ' ' << run << ' ' << share;
+              }
+            }
+          }
+        }
+      }
+    }
+  }
+  EXPECT_LT(most, 1'500'000U);
+}
+
 }  // namespace
 }  // namespace frustum::proof
