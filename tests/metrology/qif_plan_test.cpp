@@ -62,7 +62,7 @@ constexpr const char* kForeignQif = R"(<?xml version="1.0" encoding="UTF-8"?>
 <PerpendicularityCharacteristicItem id="22"><CharacteristicDesignator><Designator>7.1</Designator></CharacteristicDesignator>
 <CharacteristicNominalId>21</CharacteristicNominalId></PerpendicularityCharacteristicItem>
 <DiameterCharacteristicItem id="25"><Name>bore size</Name><FeatureItemIds n="1"><Id>6</Id></FeatureItemIds>
-<SubstituteFeatureAlgorithm><SubstituteFeatureAlgorithmEnum>MAXINSCRIBED</SubstituteFeatureAlgorithmEnum></SubstituteFeatureAlgorithm>
+<SubstituteFeatureAlgorithm><SubstituteFeatureAlgorithmEnum>LEASTSQUARES</SubstituteFeatureAlgorithmEnum></SubstituteFeatureAlgorithm>
 <CharacteristicNominalId>24</CharacteristicNominalId></DiameterCharacteristicItem>
 </CharacteristicItems>
 </Characteristics>
@@ -95,14 +95,15 @@ TEST(QifPlan, OfAnotherProgramIsRead) {
   EXPECT_EQ(plan.characteristics[0].name, "7.1");
   EXPECT_EQ(plan.characteristics[0].features, (std::vector<std::string>{"bore", "top"}));
   EXPECT_DOUBLE_EQ(plan.characteristics[0].tolerance, 0.0254);
-  EXPECT_EQ(plan.characteristics[1].criterion, Criterion::maximum_inscribed);
+  EXPECT_EQ(plan.characteristics[1].criterion, Criterion::least_squares);
   EXPECT_NEAR(plan.characteristics[1].tolerance, 0.254, 1e-12);
   // Where to touch it does not say: points can be evaluated, nothing can be probed.
   ASSERT_EQ(read->warnings.size(), 2U);
-  EXPECT_EQ(to_string(read->warnings[0]),
-            "p.qif:30:1: warning: the document does not say where to touch top, bore: which sections "
-            "their points are of is not known (hint: AttributeStr plan.strategy of a feature's item "
-            "says so)");
+  EXPECT_EQ(
+      to_string(read->warnings[0]),
+      "p.qif:30:1: warning: the document does not say where to touch top, bore: which sections "
+      "their points are of is not known (hint: AttributeStr plan.strategy of a feature's item "
+      "says so)");
   const auto for_probing = parse_plan(kForeignQif, "p.qif");
   ASSERT_FALSE(for_probing);
   EXPECT_EQ(for_probing.error().front().severity, Severity::error);
@@ -112,17 +113,19 @@ TEST(QifPlan, IsKnownByItsExtensionAndByItsText) {
   EXPECT_TRUE(is_qif("", "a.QIF"));
   EXPECT_TRUE(is_qif("\xef\xbb\xbf <?xml", "/dev/stdin"));
   EXPECT_FALSE(is_qif("title = \"<\"", "a.toml"));
-  EXPECT_EQ(plan_refusal("title = \"no\""),
-            "p.qif:1:13: error: no XML: No document element found (hint: an XML document of QIF 3.0 "
-            "(ISO 23952) is expected, whole)");
+  EXPECT_EQ(
+      plan_refusal("title = \"no\""),
+      "p.qif:1:13: error: no XML: No document element found (hint: an XML document of QIF 3.0 "
+      "(ISO 23952) is expected, whole)");
 }
 
 TEST(QifPlan, IsRefusedWithThePlaceOfTheFault) {
   std::string torus = foreign_with("<CylinderFeatureItem", "<TorusFeatureItem");
   torus.replace(torus.find("</CylinderFeatureItem"), 21, "</TorusFeatureItem");
-  EXPECT_EQ(plan_refusal(torus),
-            "p.qif:31:1: error: <TorusFeatureItem id=\"6\"> is no feature that a plan has (hint: one "
-            "of these is expected, with FeatureItem: Plane Cylinder Cone Circle Line Sphere Point)");
+  EXPECT_EQ(
+      plan_refusal(torus),
+      "p.qif:31:1: error: <TorusFeatureItem id=\"6\"> is no feature that a plan has (hint: one "
+      "of these is expected, with FeatureItem: Plane Cylinder Cone Circle Line Sphere Point)");
   EXPECT_EQ(plan_refusal(foreign_with("<Diameter>2<", "<Diameter>two<")),
             "p.qif:21:1: error: <Diameter> is 'two' (hint: one finite number is expected)");
   EXPECT_EQ(
@@ -161,9 +164,13 @@ TEST(QifPlan, IsRefusedWithThePlaceOfTheFault) {
       "p.qif:37:1: error: <MaximumToleranceValue> of a PerpendicularityCharacteristicDefinition "
       "is nothing that a plan has (hint: a definition with ToleranceValue or Tolerance is "
       "expected)");
-  EXPECT_EQ(plan_refusal(foreign_with("MAXINSCRIBED", "NURBS")),
+  EXPECT_EQ(plan_refusal(foreign_with(">LEASTSQUARES", ">NURBS")),
             "p.qif:52:1: error: <SubstituteFeatureAlgorithm> is 'NURBS' (hint: one of these is "
             "expected: LEASTSQUARES MINMAX MAXINSCRIBED MINCIRCUMSCRIBED ONESIDED)");
+  EXPECT_EQ(plan_refusal(foreign_with(">LEASTSQUARES", ">MAXINSCRIBED")),
+            "p.qif:51:1: error: <DiameterCharacteristicItem id=\"25\"> "
+            "(characteristic[2].criterion): a diameter is not evaluated by \"mi\" (hint: it takes "
+            "ls)");
   EXPECT_EQ(plan_refusal("<QIFDocument versionQIF=\"3.0.0\"/>"),
             "p.qif:1:1: error: <QIFDocument> states no unit of length (hint: "
             "FileUnits/PrimaryUnits/LinearUnit says how many metres a unit is)");

@@ -116,7 +116,7 @@ TEST(QifPoints, HaveAPlaceInTheDocument) {
   };
   const std::string text = document(measured(4, kWhole), kSet);
   EXPECT_EQ(said(text.substr(0, text.size() - 20)),
-            "p.qif:12:50: error: no XML: Error parsing end element tag (hint: an XML document of "
+            "p.qif:12:48: error: no XML: Start-end tags mismatch (hint: an XML document of "
             "QIF 3.0 (ISO 23952) is expected, whole)");
   EXPECT_EQ(
       said(document(measured(4, "<WholePointSetId>47</WholePointSetId>"), kSet)),

@@ -144,7 +144,7 @@ tolerance = "7 um"
 name = "bore.round"
 kind = "roundness"
 feature = "bore"
-sections = [0, 2]
+section = 2
 seam = { at = 33.3, within = 2 }
 tolerance = "8.1 um"
 [[characteristic]]
@@ -156,7 +156,6 @@ tolerance = "3.3 um"
 name = "bore.size"
 kind = "diameter"
 feature = "bore"
-criterion = "mi"
 tolerance = "12 um"
 [[characteristic]]
 name = "bore.size deviation"
@@ -207,7 +206,7 @@ TEST(QifPlan, HoldsEveryKey) {
   EXPECT_EQ(attributes["plan.kind"], 1) << "axis_straightness, which a document calls Straightness";
   EXPECT_EQ(attributes["plan.side"], 0);
   EXPECT_EQ(attributes["plan.criterion"], 0);
-  EXPECT_EQ(attributes["plan.axis"], 5)
+  EXPECT_EQ(attributes["plan.axis"], 4)
       << "A, taper, ball, edge are no unit vectors or have a pole";
   EXPECT_EQ(attributes["plan.point"], 2) << "where bore and edge do not begin";
 }

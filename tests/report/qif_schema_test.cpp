@@ -5,8 +5,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string>
 
+#include "core/spline_surface.hpp"
 #include "metrology/plan/plan_names.hpp"
 #include "report/exchange/qif_results.hpp"
 #include "tests/metrology/measured_feature.hpp"
@@ -25,6 +27,13 @@ metrology::PlannedFeature planned_as(FeatureKind kind) {
   if (kind == FeatureKind::plane) return plane(name, {0, 0, 5}, z, 20 * x, 10 * y);
   if (kind == FeatureKind::line) return line(name, {0, -20, 5}, x, -y);
   if (kind == FeatureKind::point) return point(name, {1, 2, 3}, z);
+  if (kind == FeatureKind::ruled) {
+    metrology::PlannedFeature ruled{.name = name, .kind = kind};
+    const std::vector<Vec3> lower{{0, 0, 0}, {9, 0, 0}}, upper{{0, 0, 5}, {9, 1, 5}};
+    ruled.net.surface = std::make_shared<const SplineSurface>(SplineSurface::ruled(lower, upper));
+    ruled.strategy = metrology::SurfaceLineStrategy{};
+    return ruled;
+  }
   metrology::PlannedFeature round = cylinder(name, {0, 0, 40}, z, 20.0);
   round.kind = kind;
   if (kind == FeatureKind::cone) round.half_angle = 0.5;
