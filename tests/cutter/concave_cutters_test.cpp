@@ -224,8 +224,8 @@ TEST(HollowCutterLaws, ShallowCutsAlongARayAreWalkedInFewSteps) {
   EXPECT_LT(sweep.looks(), 2'000'000U);
 }
 
-// A ray in the end plane at one moment, and next to it by what the tool turns at all others: stretches
-// of it are left aside, or covered by moments that follow it, each in a few steps.
+// A ray in the end plane at one moment, and next to it by what the tool turns at all others:
+// stretches of it are left aside, or covered by moments that follow it, each in a few steps.
 TEST(HollowCutterLaws, ToolsThatTurnLeaveARayInTheEndPlaneInFewLooks) {
   const Vec3 axis = Vec3(0.1, 0.2, 1.0).normalized(), tip(0.123, 0.456, 0.789);
   const Vec3 feed = axis.cross(Vec3(0.3, 0.7, 0.05)).normalized();
@@ -263,7 +263,7 @@ TEST(HollowCutterLaws, ToolsThatTurnLeaveARayInTheEndPlaneInFewLooks) {
       }
     }
   }
-  EXPECT_LT(most, 1'500'000U);
+  EXPECT_LT(most, 800'000U);
 }
 
 }  // namespace
