@@ -1,6 +1,7 @@
 #include "report/page/history_page.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -95,16 +96,17 @@ report::HistoryTable changes_table_of(const History& history, const char* id, co
 }
 
 report::HistoryTable sources_table(const History& history) {
-  report::HistoryTable table{
-      .id = "results",
-      .heading = "Results",
-      .note = "Dates are never those of the file system.",
-      .columns = {"File", "Document", "Date", "Date from", "State", "State from"}};
+  report::HistoryTable table{.id = "results",
+                             .heading = "Results",
+                             .note = "Dates are never those of the file system.",
+                             .columns = {"File", "Document", "Date", "Date from", "State",
+                                         "State from", "Without a value"}};
   for (const DatedResult& each : history.folder.results) {
     const bool stated = each.state != MachineState::not_stated;
     table.rows.push_back({each.file.generic_string(), each.document, each.moment.text,
                           std::string(name_of(each.date_from)), std::string(name_of(each.state)),
-                          stated ? std::string(name_of(each.state_from)) : ""});
+                          stated ? std::string(name_of(each.state_from)) : "",
+                          fmt::format("{}", fmt::join(each.without_value, ", "))});
   }
   return table;
 }
@@ -113,8 +115,9 @@ report::HistoryTable sources_table(const History& history) {
 
 std::string history_page(const History& history) {
   const ResultFolder& folder = history.folder;
-  report::HistoryPage page{
-      .title = folder.title, .passes = history.passes(), .failures = failures_of(history)};
+  report::HistoryPage page{.title = folder.title,
+                           .passes = history.passes(),
+                           .failures = failures_of(history, UnitStyle::symbol)};
   page.reason = page.failures.empty() ? counted(history.series.size(), "value")
                                       : counted(page.failures.size(), "point") + " beyond limits";
   page.facts = {{"Machine", folder.machine},
@@ -122,7 +125,8 @@ std::string history_page(const History& history) {
                 {"From", folder.results.front().moment.text},
                 {"To", folder.results.back().moment.text}};
   if (history.options.baseline > 0) {
-    page.facts.push_back({"Limits of", "the first " + counted(history.options.baseline, "result")});
+    page.facts.push_back({"Limits of", "the first " + counted(history.options.baseline, "result") +
+                                           ", or of all where there are fewer"});
   }
   if (history.options.since) {
     page.facts.push_back({"Judged since", history.options.since->text});

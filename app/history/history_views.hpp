@@ -13,9 +13,11 @@ namespace frustum::app {
 [[nodiscard]] std::string history_json(const History& history);
 [[nodiscard]] std::string history_page(const History& history);
 
-// "cone.form, 2026-03-02: 12.400 um, above the upper control limit 11.9": of each point that
-// fails.
-[[nodiscard]] std::vector<std::string> failures_of(const History& history);
+// Units as files have them (um, deg), or as people read them (µm, °).
+enum class UnitStyle { word, symbol };
+// "cone.form, 2026-03-02: 12.400 um, above the upper control limit 11.900": of each point that
+// fails; with as many digits as tell a value from what it is beyond.
+[[nodiscard]] std::vector<std::string> failures_of(const History& history, UnitStyle style);
 // Why a series has no limits, or what is to be said of them; empty where nothing is.
 [[nodiscard]] std::string limits_remark(const HistorySeries& series);
 // "11.0 .. 12.0", of a tolerance about a nominal or below a limit; empty without one.
