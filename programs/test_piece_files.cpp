@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "core/file_set.hpp"
+#include "core/made_by.hpp"
 #include "cutter/body/cutter_file.hpp"
 #include "stock/mesh/io/mesh_file.hpp"
 
@@ -127,6 +128,9 @@ std::vector<std::pair<std::string, std::string>> test_piece_files(const TestPiec
 Result<std::vector<fs::path>> write_test_piece(const TestPiece& piece, const std::string& machine,
                                                const fs::path& folder, const std::string& sheet) {
   auto contents = test_piece_files(piece, machine);
+  for (auto& [name, text] : contents) {
+    if (name.ends_with(".toml")) text.insert(0, "# " + made_by() + "\n");
+  }
   if (!sheet.empty()) contents.emplace_back("setup.html", sheet);
   std::vector<std::string> names;
   for (const auto& [name, text] : contents) names.push_back(name);

@@ -61,9 +61,7 @@ std::string history_html(const HistoryPage& page) {
   if (!page.remarks.empty()) {
     body += section("remarks", "Remarks", listed(page.remarks, "warning"));
   }
-  body +=
-      "</main>\n<footer><p>Made by Frustum. The licences of the bundled packages are in the source "
-      "of this page.</p></footer>\n";
+  body += page_end();
   return filled_page(html_text(page.title), body, "{}");
 }
 

@@ -89,9 +89,7 @@ std::string motion_html(const MotionPage& page) {
   }
   body += setup_section(page) + trace_section(page) + table_sections(page) +
           contribution_section(page) + told_section(page);
-  body +=
-      "</main>\n<footer><p>Made by Frustum. The licences of the bundled packages are in the source "
-      "of this page.</p></footer>\n";
+  body += page_end();
   return filled_page(html_text(page.title), body, "{}");
 }
 

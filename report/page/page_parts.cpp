@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "core/made_by.hpp"
 #include "report/html/html_text.hpp"
 #include "report/number_text.hpp"
 
@@ -58,6 +59,11 @@ std::string with_unit(const std::string& number, std::string_view unit, const Wo
 
 std::string fact(std::string_view name, const std::string& value) {
   return value.empty() ? "" : fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", name, value);
+}
+
+std::string page_end() {
+  return "</main>\n<footer><p>" + made_by() +
+         ". The licences of the bundled packages are in the source of this page.</p></footer>\n";
 }
 
 std::string capital(metrology::Verdict verdict, const Wording& words) {

@@ -207,9 +207,7 @@ std::string study_html(const StudyPage& page) {
   body += "</dl></header>\n<main>" + table_section(page) + box_section(page) +
           distribution_section(page) + scatter_section(page) + risk_section(page) +
           share_section(page) + allocation_section(page) + map_section(page);
-  body +=
-      "</main>\n<footer><p>Made by Frustum. The licences of the bundled packages are in the source "
-      "of this page.</p></footer>\n";
+  body += page_end();
   return filled_page(html_text(page.title), body, "{}");
 }
 
