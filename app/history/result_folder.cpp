@@ -114,8 +114,8 @@ std::vector<fs::path> documents_in(const fs::path& folder, std::error_code& prob
   return files;
 }
 
-// What is no result is passed over, and said so: folders hold other documents beside. A damaged file
-// may be one.
+// What is no result is passed over, and said so: folders hold other documents beside. A damaged
+// file may be one.
 Result<ResultFolder> scanned(const fs::path& folder) {
   ResultFolder found{.title = fs::weakly_canonical(folder).filename().string()};
   std::error_code problem;

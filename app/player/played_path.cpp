@@ -16,8 +16,8 @@ using kinematics::ToolPath;
 
 constexpr double kFramesOfAProgram = 3000.0;  // what a time line of a screen can show
 constexpr double kLeastStep = 0.01;           // s: half of what a frame of a film shows
-// s: doubles have coordinates of a metre to 1e-13 mm and times of an hour to 5e-13 s, so that a feed
-// over more than this is known to a hundred-thousandth.
+// s: doubles have coordinates of a metre to 1e-13 mm and times of an hour to 5e-13 s, so that a
+// feed over more than this is known to a hundred-thousandth.
 constexpr double kLeastTimeOfFeed = 1e-7;
 
 // One pose of the path, in the order in which the tool passes them.

@@ -11,9 +11,9 @@ namespace {
 constexpr double kFactorOfValues = 2.66, kFactorOfRanges = 3.267;
 
 // Of a limit, by the largest magnitude M, the spread S of n values, and u = epsilon / 2. A value is
-// its decimal within u M, a difference of two within 2 u M and u S more; n of them summed and divided
-// are within (n + 1) u S. The mean of ranges enters 3.267 times at most, the mean once, and what
-// they make is rounded to u (M + 3.267 S): below 4 (n + 4) u S + 12 u M in all.
+// its decimal within u M, a difference of two within 2 u M and u S more; n of them summed and
+// divided are within (n + 1) u S. The mean of ranges enters 3.267 times at most, the mean once,
+// and what they make is rounded to u (M + 3.267 S): below 4 (n + 4) u S + 12 u M in all.
 double rounding_of(std::span<const double> values) {
   const auto [least, most] = std::ranges::minmax(values);
   const double largest = std::max(std::abs(least), std::abs(most));

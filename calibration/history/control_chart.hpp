@@ -9,9 +9,9 @@
 //            with four even one far off all others widens the limits beyond itself
 //            ((n-1)^2 > 2.66 n). A value that begins anew (after an adjustment) has no range
 // Errors   : none; nothing where there are fewer values
-// Accuracy : that of the two factors as printed, 4 digits. Values are doubles nearest to decimals, and
-//            sums are rounded: `rounding` bounds by how much a limit differs from that of the decimals,
-//            so that equal values are within limits that are equal to them
+// Accuracy : that of the two factors as printed, 4 digits. Values are doubles nearest to decimals,
+//            and sums are rounded: `rounding` bounds by how much a limit differs from that of the
+//            decimals, so that equal values are within limits that are equal to them
 // Source   : ISO 7870-2:2013, Shewhart control charts (individuals and moving range); Shewhart 1931
 #pragma once
 
