@@ -7,6 +7,7 @@
 
 #include "core/constants.hpp"
 #include "core/counted.hpp"
+#include "core/made_by.hpp"
 #include "core/text_words.hpp"
 #include "core/whole_file.hpp"
 #include "dynamics/response_units.hpp"
@@ -36,8 +37,8 @@ std::string axis_record(int type, std::string_view label, std::string_view unit)
 
 std::string dataset_58(const FrequencyResponse& r, std::string_view title) {
   const bool even = is_even(r.frequencies);
-  std::string text = fmt::format("    -1\n    58\n{:.80}\n{}\nNONE\nNONE\nNONE\n", title,
-                                 "compliance of the tip, " + r.name());
+  std::string text = fmt::format("    -1\n    58\n{:.80}\n{}\nNONE\n{:.80}\nNONE\n", title,
+                                 "compliance of the tip, " + r.name(), made_by());
   text += fmt::format("{:>5}{:>10}{:>5}{:>10} {:<10}{:>10}{:>4} {:<10}{:>10}{:>4}\n", 4, 0, 0, 0,
                       "TIP", 1, r.motion + 1, "TIP", 1, r.force + 1);
   const double first = r.frequencies.empty() ? 0.0 : r.frequencies.front();

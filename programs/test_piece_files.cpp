@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "core/file_set.hpp"
+#include "core/made_by.hpp"
 #include "cutter/body/cutter_file.hpp"
 #include "stock/mesh/io/mesh_file.hpp"
 
@@ -45,11 +46,16 @@ std::string blank_text(const stock::BlankShape& shape, const Vec3& origin) {
       2.0 * frustum.bottom_radius, 2.0 * frustum.top_radius, frustum.height, vector_text(origin));
 }
 
-std::string mesh_text(const stock::FacetSolid& solid) {
+std::string mesh_text(const stock::FacetSolid& solid, Maker maker) {
   stock::SurfaceMesh mesh;
   mesh.vertices.assign(solid.vertices().begin(), solid.vertices().end());
   mesh.triangles.assign(solid.facets().begin(), solid.facets().end());
-  return stock::mesh_bytes(mesh, stock::MeshFormat::ply);
+  std::string bytes = stock::mesh_bytes(mesh, stock::MeshFormat::ply);
+  if (maker == Maker::left_out) {
+    const std::string line = "comment " + made_by() + "\n";
+    if (const auto at = bytes.find(line); at != std::string::npos) bytes.erase(at, line.size());
+  }
+  return bytes;
 }
 
 }  // namespace
@@ -112,14 +118,19 @@ std::string job_text(const TestPiece& piece, const std::string& machine,
 }
 
 std::vector<std::pair<std::string, std::string>> test_piece_files(const TestPiece& piece,
-                                                                  const std::string& machine) {
+                                                                  const std::string& machine,
+                                                                  Maker maker) {
   const fs::path plan = fs::path(piece.program_file).replace_extension(".plan.toml");
   std::vector<std::pair<std::string, std::string>> contents{
       {"job.toml", job_text(piece, machine, plan.string())},
       {piece.program_file, piece.program},
       {plan.string(), metrology::to_toml(piece.plan)}};
   if (const auto* mesh = std::get_if<stock::MeshShape>(&piece.blank)) {
-    contents.emplace_back(mesh->file, mesh_text(*mesh->solid));
+    contents.emplace_back(mesh->file, mesh_text(*mesh->solid, maker));
+  }
+  if (maker == Maker::left_out) return contents;
+  for (auto& [name, text] : contents) {
+    if (name.ends_with(".toml")) text.insert(0, "# " + made_by() + "\n");
   }
   return contents;
 }

@@ -19,9 +19,12 @@ namespace frustum::programs {
 [[nodiscard]] std::string job_text(const TestPiece& piece, const std::string& machine,
                                    const std::string& plan_file);
 
+// Whether files say by which version of Frustum they were made.
+enum class Maker { stated, left_out };
+
 // The files by their names: the job first, the NC program, the plan, the blank where it is a mesh.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> test_piece_files(
-    const TestPiece& piece, const std::string& machine);
+    const TestPiece& piece, const std::string& machine, Maker maker = Maker::stated);
 
 // Writes job.toml, the NC program and the plan; returns their paths, the job first.
 // With `sheet` as setup.html, where there is one. The files are exchanged as one (file_set.hpp).

@@ -37,6 +37,8 @@ inline constexpr PhraseRow kHistoryRows[] = {
     {"Date from", "Datum aus"},
     {"State", "Zustand"},
     {"State from", "Zustand aus"},
+    {"Without a value", "Ohne Wert"},
+    {"{0}: no value of {1}", "{0}: kein Wert von {1}"},
     {"index", "Liste"},
     {"document", "Dokument"},
     {"file name", "Dateiname"},
@@ -51,7 +53,8 @@ inline constexpr PhraseRow kHistoryRows[] = {
     {"1 point beyond limits", "1 Punkt außerhalb der Grenzen"},
     {"{0} points beyond limits", "{0} Punkte außerhalb der Grenzen"},
     {"Limits of", "Grenzen aus"},
-    {"the first {0} results", "den ersten {0} Ergebnissen"},
+    {"the first {0} results, or of all where there are fewer",
+     "den ersten {0} Ergebnissen, oder allen, wo es weniger sind"},
     {"Judged since", "Beurteilt ab"},
     {"What fails", "Außerhalb der Grenzen"},
     {"Control charts", "Qualitätsregelkarten"},
@@ -67,8 +70,8 @@ inline constexpr PhraseRow kHistoryRows[] = {
      "Spannweiten mit ihrer Grenze, dem 3,267-Fachen ihres Mittelwerts (ISO 7870-2). Rot, "
      "gestrichelt: Toleranz, wo sie nahe liegt. Grün, gestrichelt: Trend nach kleinsten "
      "Quadraten."},
-    {"Made by Frustum. The licences of the bundled packages are in the source of this page.",
-     "Erstellt mit Frustum. Die Lizenzen der enthaltenen Pakete stehen im Quelltext dieser "
+    {"Made by Frustum {0}. The licences of the bundled packages are in the source of this page.",
+     "Erstellt mit Frustum {0}. Die Lizenzen der enthaltenen Pakete stehen im Quelltext dieser "
      "Seite."},
     {"LCL", "UEG"},
     {"UCL", "OEG"},

@@ -15,6 +15,7 @@
 #include "app/view/console.hpp"
 #include "calibration/compensate/compensated_piece.hpp"
 #include "core/file_set.hpp"
+#include "core/made_by.hpp"
 #include "core/program_version.hpp"
 #include "trials/trial.hpp"
 
@@ -79,8 +80,9 @@ Result<std::vector<fs::path>> write_compensated(const Job& job, programs::TestPi
                             : fs::path(piece.program_file).replace_extension(".plan.toml").string();
   auto text = compensated_job(job, piece, plan, folder);
   if (!text) return text.error();
-  std::vector<std::pair<std::string, std::string>> contents{{"job.toml", *std::move(text)},
-                                                            {piece.program_file, piece.program}};
+  std::vector<std::pair<std::string, std::string>> contents{
+      {"job.toml", "# " + made_by() + ", compensated\n" + *text},
+      {piece.program_file, piece.program}};
   if (!plan.empty()) contents.emplace_back(plan, job.plan_text);
   std::vector<std::string> names;
   for (const auto& [name, bytes] : contents) names.push_back(name);

@@ -360,8 +360,8 @@ int cut(CutOptions options) {
   tell_collisions(*job, *result);
   if (options.json) {
     std::cout << cut_json(*result);
-  } else if (!options.quiet) {
-    std::cout << cut_text(*result);
+  } else {
+    std::cout << (options.quiet ? originating_block_text(*result) : cut_text(*result));
   }
   return result->passes() && !has_error(trial->wrong_cuts) ? kDone : kOutOfTolerance;
 }

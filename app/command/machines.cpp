@@ -47,7 +47,8 @@ int list_machines(const MachinesOptions& options) {
       list.push_back({{"name", machine->name()},
                       {"structure", machine->structure()},
                       {"title", machine->title()},
-                      {"file", file.string()}});
+                      {"file", file.string()},
+                      {"version", program_version()}});
     } else if (!options.quiet) {
       std::cout << fmt::format("{:<20} {:<24} {}\n", machine->name(), machine->structure(),
                                machine->title());

@@ -33,6 +33,7 @@ struct ViewOptions : AnswerOptions {
   PlayerWords words{};
   std::string out{};
   StepRequest steps{};
+  bool asks_for_workpiece = false;  // --snapshots or --pitch are given, and not for none
 };
 
 struct Played {
@@ -78,6 +79,11 @@ Result<Played> play(const ViewOptions& options, TrialRun& run) {
   if (!program) return program.error();
   Played played{.program = *std::move(program)};
   const Job& job = played.program.job;
+  if (!played.program.has_blank && options.asks_for_workpiece) {
+    return error("conflicting-options"_id,
+                 "--snapshots and --pitch are of a workpiece, and a program alone has no blank",
+                 "name a job that has one with --job, or leave them out");
+  }
   for (const std::string& note : played.program.notes) std::cerr << "note: " << note << '\n';
   run.begin("execute");
   auto commanded = trials::command_piece(job.machine, job.piece);
@@ -207,6 +213,7 @@ Result<report::PlayerPage> page_of(const Played& played) {
     report::PlayerPoint drawn{.time = point.time,
                               .tip = point.tip,
                               .deviation = point.deviation,
+                              .feed = point.feed,
                               .block = point.block,
                               .starts = point.starts};
     for (const kinematics::Joint& joint : job.machine.joints()) {
@@ -311,7 +318,11 @@ void add_view(Command& program) {
       "The page needs no network. A program alone has no blank and takes errors by --error.\n"
       "Example: frustum view job.toml --out out --error EX0C=10um\n"
       "Example: frustum view part.nc --machine iwf-bc --tool-length 1=150 --offset G54=-65,0,150");
-  command.computes([o] { return view(*o); });
+  command.computes([o, command] {
+    o->asks_for_workpiece =
+        o->steps.count > 0 && (command.was_given("--snapshots") || command.was_given("--pitch"));
+    return view(*o);
+  });
 }
 
 }  // namespace frustum::app

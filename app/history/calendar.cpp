@@ -74,6 +74,23 @@ std::optional<double> zone_of(std::string_view text) {
 
 constexpr std::size_t kDate = 10;  // characters
 
+bool has_form_of_day(std::string_view text, std::size_t at) {
+  return digits_at(text, at, 4) && text[at + 4] == '-' && digits_at(text, at + 5, 2) &&
+         text[at + 7] == '-' && digits_at(text, at + 8, 2);
+}
+
+std::size_t digits_from(std::string_view text, std::size_t at) {
+  std::size_t count = 0;
+  while (is_digit_at(text, at + count)) ++count;
+  return count;
+}
+
+// Hours and minutes, or seconds too: "1405", "140530".
+bool has_length_of_time(std::string_view text, std::size_t at) {
+  const std::size_t count = digits_from(text, at);
+  return count == 4 || count == 6;
+}
+
 }  // namespace
 
 std::optional<Moment> moment_of(std::string_view text) {
@@ -88,21 +105,31 @@ std::optional<Moment> moment_of(std::string_view text) {
   return Moment{std::string(text), *day + time->share - *zone, true};
 }
 
-std::optional<Moment> moment_in(std::string_view name) {
+MomentInName moment_in(std::string_view name) {
+  MomentInName found;
   for (std::size_t at = 0; at + kDate <= name.size(); ++at) {
-    if (at > 0 && is_digit_at(name, at - 1)) continue;
-    const auto day = day_at(name, at);
     const std::size_t end = at + kDate;
-    if (!day || is_digit_at(name, end)) continue;
-    if (end < name.size() && (name[end] == 'T' || name[end] == '_')) {
-      if (const auto time = time_at(name, end + 1, ":-.")) {
-        return Moment{std::string(name.substr(at, kDate + 1 + time->length)), *day + time->share,
-                      true};
+    if ((at > 0 && is_digit_at(name, at - 1)) || is_digit_at(name, end)) continue;
+    const auto day = day_at(name, at);
+    if (!day) {
+      if (found.no_day.empty() && has_form_of_day(name, at)) {
+        found.no_day = std::string(name.substr(at, kDate));
       }
+      continue;
     }
-    return Moment{std::string(name.substr(at, kDate)), *day, false};
+    found.no_day.clear();
+    found.moment = Moment{std::string(name.substr(at, kDate)), *day, false};
+    if (end >= name.size() || (name[end] != 'T' && name[end] != '_')) return found;
+    const auto time = time_at(name, end + 1, ":-.");
+    if (time && !is_digit_at(name, end + 1 + time->length)) {
+      found.moment =
+          Moment{std::string(name.substr(at, kDate + 1 + time->length)), *day + time->share, true};
+    } else if (name[end] == 'T' ? is_digit_at(name, end + 1) : has_length_of_time(name, end + 1)) {
+      found.no_time = std::string(name.substr(at, end + 1 + digits_from(name, end + 1) - at));
+    }
+    return found;
   }
-  return std::nullopt;
+  return found;
 }
 
 std::string date_text(double day) {

@@ -20,9 +20,16 @@ struct Moment {
 
 // All of the text: 2026-11-23, 2026-11-23T14:05:00, with Z or +01:00.
 [[nodiscard]] std::optional<Moment> moment_of(std::string_view text);
+
+struct MomentInName {
+  std::optional<Moment> moment{};
+  // What looks like a day and is none of the calendar ("2026-02-30"), where the name has no other;
+  // what looks like a time after the day, and is none of a day ("2026-11-23T2430").
+  std::string no_day{}, no_time{};
+};
 // The first day in a name, with a time after T or _: "cone_2026-11-23.json", "2026-11-23T1405",
 // "2026-11-23_14-05-30".
-[[nodiscard]] std::optional<Moment> moment_in(std::string_view name);
+[[nodiscard]] MomentInName moment_in(std::string_view name);
 // "2026-11-23", of whole days.
 [[nodiscard]] std::string date_text(double day);
 

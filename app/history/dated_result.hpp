@@ -4,7 +4,9 @@
 // Documents: results of `run` and `measure` (characteristics), of `identify` (machine errors), of
 // `motion` (what a circle or a positioning test evaluates).
 // Units  : each value in its own
-// Errors : a file that cannot be read, that is no JSON object, or no such document: with its name
+// Errors : a file that cannot be read, that is damaged (with line and column), that is no such
+//          document (kNoDocument), or one in another form than this program writes; keys that are
+//          missing or hold something else than they may, with their paths
 #pragma once
 
 #include <array>
@@ -53,9 +55,12 @@ struct DatedResult {
 
 // What a history itself is written as; it has no values.
 inline constexpr std::string_view kHistoryDocument = "history";
+// What is wrong with a sound file that has no values which a history follows.
+inline constexpr DiagnosticId kNoDocument = "unknown-document"_id;
 // Its date is what the document itself states; date_from is nowhere where it states none.
 [[nodiscard]] Result<DatedResult> read_result(const std::filesystem::path& file);
-// "as-found" or "as-left" in a name.
-[[nodiscard]] MachineState state_in(std::string_view name);
+// "as-found" or "as-left" in a name, with a hyphen, a blank or an underscore, in any case; nothing
+// where it has both.
+[[nodiscard]] std::optional<MachineState> state_in(std::string_view name);
 
 }  // namespace frustum::app

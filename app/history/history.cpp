@@ -99,8 +99,8 @@ void find_limits(HistorySeries& series, const History& history) {
     point.moving_range = ranges[i];
     if (!series.limits) continue;
     const auto& limits = *series.limits;
-    point.beyond_control = values[i] < limits.lower || values[i] > limits.upper;
-    point.beyond_range = ranges[i] && *ranges[i] > limits.upper_moving_range;
+    point.beyond_control = limits.is_beyond(values[i]);
+    point.beyond_range = ranges[i] && limits.is_range_beyond(*ranges[i]);
   }
 }
 
@@ -150,6 +150,26 @@ bool History::passes() const {
   return std::ranges::all_of(series, [](const HistorySeries& s) { return s.failures() == 0; });
 }
 
+namespace {
+
+// Series whose limits are of fewer results than were asked for.
+std::optional<Diagnostic> short_of_baseline(const History& history) {
+  const std::size_t baseline = history.options.baseline;
+  std::string names;
+  for (const HistorySeries& series : history.series) {
+    if (series.counted >= baseline) continue;
+    names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", series.name, series.counted);
+  }
+  if (names.empty()) return std::nullopt;
+  return warning("short-baseline"_id,
+                 fmt::format("--baseline {}: fewer results as found of {}; their limits are of all "
+                             "that there are, and move with each new one",
+                             baseline, names),
+                 "give a number that is reached, or leave it out");
+}
+
+}  // namespace
+
 Result<History> history_of(ResultFolder folder, const HistoryOptions& options) {
   Gathered gathered(folder);
   if (!gathered.faults().empty()) return gathered.faults();
@@ -159,6 +179,9 @@ Result<History> history_of(ResultFolder folder, const HistoryOptions& options) {
     find_trend(series, history.folder);
     judge(series, history);
     find_pairs(series, history.folder);
+  }
+  if (auto remark = short_of_baseline(history)) {
+    history.folder.remarks.push_back(*std::move(remark));
   }
   return history;
 }

@@ -115,7 +115,7 @@ std::string history_json(const History& history) {
             {"since", history.options.since ? Json(history.options.since->text) : Json(nullptr)},
             {"results", Json::array()},
             {"series", Json::array()},
-            {"failures", failures_of(history)},
+            {"failures", failures_of(history, UnitStyle::word)},
             {"diagnostics", Json::array()}};
   for (const DatedResult& each : history.folder.results) {
     json["results"].push_back(result_json(each));

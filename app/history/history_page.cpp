@@ -1,6 +1,7 @@
 #include "report/page/history_page.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -109,12 +110,14 @@ report::HistoryTable sources_table(const History& history, const Wording& words)
                              .heading = words("Results"),
                              .note = words("Dates are never those of the file system."),
                              .columns = {words("File"), words("Document"), words("Date"),
-                                         words("Date from"), words("State"), words("State from")}};
+                                         words("Date from"), words("State"), words("State from"),
+                                         words("Without a value")}};
   for (const DatedResult& each : history.folder.results) {
     const bool stated = each.state != MachineState::not_stated;
     table.rows.push_back({each.file.generic_string(), words.word(each.document), each.moment.text,
                           words.word(name_of(each.date_from)), words.word(name_of(each.state)),
-                          stated ? words.word(name_of(each.state_from)) : ""});
+                          stated ? words.word(name_of(each.state_from)) : "",
+                          fmt::format("{}", fmt::join(each.without_value, ", "))});
   }
   return table;
 }
@@ -134,7 +137,7 @@ std::string history_page(const History& history, const Wording& words) {
   report::HistoryPage page{.style = words.style(),
                            .title = folder.title,
                            .passes = history.passes(),
-                           .failures = failures_of(history, words)};
+                           .failures = failures_of(history, UnitStyle::symbol, words)};
   page.reason = page.failures.empty() ? values_counted(history.series.size(), words)
                                       : failures_counted(page.failures.size(), words);
   page.facts = {{words("Machine"), folder.machine},
@@ -143,7 +146,7 @@ std::string history_page(const History& history, const Wording& words) {
                 {words("To"), folder.results.back().moment.text}};
   if (history.options.baseline > 0) {
     page.facts.push_back(
-        {words("Limits of"), words("the first {0} results", history.options.baseline)});
+        {words("Limits of"), words("the first {0} results, or of all where there are fewer", history.options.baseline)});
   }
   if (history.options.since) {
     page.facts.push_back({words("Judged since"), history.options.since->text});

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "app/history/history_views.hpp"
 #include "app/view/text_table.hpp"
@@ -14,7 +17,7 @@ constexpr double kDaysOfTrend = 30.0;
 
 std::string signed_text(double value, const std::string& unit, const Wording& words) {
   const std::string text = words.value(value, unit);
-  return value > 0.0 ? "+" + text : text;
+  return value > 0.0 && text.find_first_of("123456789") != std::string::npos ? "+" + text : text;
 }
 
 std::string date_of(const History& history, const HistoryPoint& point, const Wording& words) {
@@ -59,6 +62,73 @@ std::string sources_text(const History& history, const Wording& words) {
   return table.text();
 }
 
+// "2026-06-01: no value of EA0B"
+std::string without_values_text(const History& history, const Wording& words) {
+  std::string text;
+  for (const DatedResult& each : history.folder.results) {
+    if (each.without_value.empty()) continue;
+    text += words("{0}: no value of {1}", each.moment.text,
+                  fmt::format("{}", fmt::join(each.without_value, ", "))) +
+            "\n";
+  }
+  return text;
+}
+
+// Numbers with the decimals of their unit, or with as many more as tell the first from the others.
+std::vector<std::string> told_apart(const std::vector<double>& numbers, const std::string& unit,
+                                    const Wording& words) {
+  std::vector<std::string> texts;
+  for (const double each : numbers) texts.push_back(words.value(each, unit));
+  const auto is_ambiguous = [&] {
+    for (std::size_t k = 1; k < numbers.size(); ++k) {
+      if (numbers[k] != numbers[0] && texts[k] == texts[0]) return true;
+    }
+    return false;
+  };
+  constexpr int kMost = 17;  // digits after the point; more than a double has of these values
+  const std::size_t point = texts[0].find(words.decimal_sign());
+  int decimals = point == std::string::npos ? 0 : static_cast<int>(texts[0].size() - point) - 1;
+  while (is_ambiguous() && decimals < kMost) {
+    ++decimals;
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      texts[k] = words.fixed(words.shown(numbers[k], unit), decimals);
+    }
+  }
+  return texts;
+}
+
+// "12.900 um, out of its tolerance 12.000, above the upper control limit 11.900"
+std::string failure_text(const HistorySeries& series, const HistoryPoint& point,
+                         const std::string& unit, const Wording& words) {
+  const ReadValue& read = point.read;
+  std::vector<double> numbers{read.value};
+  if (point.beyond_tolerance && read.tolerance) {
+    if (read.nominal) numbers.push_back(*read.nominal - *read.tolerance);
+    numbers.push_back(read.nominal.value_or(0.0) + *read.tolerance);
+  }
+  const bool above = point.beyond_control && read.value > series.limits->upper;
+  if (point.beyond_control) numbers.push_back(above ? series.limits->upper : series.limits->lower);
+  const std::vector<std::string> texts = told_apart(numbers, series.unit, words);
+  std::string text = texts[0] + " " + unit;
+  if (point.beyond_tolerance) {
+    std::string limit;
+    if (read.tolerance) limit = texts[1];
+    if (read.tolerance && read.nominal) limit += " .. " + texts[2];
+    text += read.verdict == "fail" ? words(", out of its tolerance {0}", limit)
+                                   : words(", not proven within its tolerance {0}", limit);
+  }
+  if (point.beyond_control) {
+    text += above ? words(", above the upper control limit {0}", texts.back())
+                  : words(", below the lower control limit {0}", texts.back());
+  }
+  if (point.beyond_range) {
+    const auto of_range = told_apart({*point.moving_range, series.limits->upper_moving_range},
+                                     series.unit, words);
+    text += words(", changed by {0}, limit {1}", of_range[0], of_range[1]);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string limits_remark(const HistorySeries& series, const Wording& words) {
@@ -89,32 +159,16 @@ std::string trend_text(const HistorySeries& series, const Wording& words) {
          words.value(kDaysOfTrend * series.trend->half_width, series.unit);
 }
 
-std::vector<std::string> failures_of(const History& history, const Wording& words) {
+std::vector<std::string> failures_of(const History& history, UnitStyle style,
+                                     const Wording& words) {
   std::vector<std::string> all;
   for (const HistorySeries& series : history.series) {
+    const std::string unit = style == UnitStyle::symbol ? words.symbol(series.unit)
+                                                        : std::string(words.unit(series.unit));
     for (const HistoryPoint& point : series.points) {
       if (!point.fails()) continue;
-      std::string text =
-          fmt::format("{}, {}: {} {}", series.name, date_of(history, point, words),
-                      words.value(point.read.value, series.unit), words.unit(series.unit));
-      if (point.beyond_tolerance) {
-        const std::string limit = tolerance_text(point.read, words);
-        text += point.read.verdict == "fail"
-                    ? words(", out of its tolerance {0}", limit)
-                    : words(", not proven within its tolerance {0}", limit);
-      }
-      if (point.beyond_control) {
-        const bool above = point.read.value > series.limits->upper;
-        const std::string limit =
-            words.value(above ? series.limits->upper : series.limits->lower, series.unit);
-        text += above ? words(", above the upper control limit {0}", limit)
-                      : words(", below the lower control limit {0}", limit);
-      }
-      if (point.beyond_range) {
-        text += words(", changed by {0}, limit {1}", words.value(*point.moving_range, series.unit),
-                      words.value(series.limits->upper_moving_range, series.unit));
-      }
-      all.push_back(std::move(text));
+      all.push_back(fmt::format("{}, {}: {}", series.name, date_of(history, point, words),
+                                failure_text(series, point, unit, words)));
     }
   }
   return all;
@@ -153,7 +207,7 @@ std::string history_text(const History& history, const Wording& words) {
                   calibration::kFewestForLimits, calibration::kEnoughForLimits) +
             "\n";
   }
-  if (const auto failures = failures_of(history, words); !failures.empty()) {
+  if (const auto failures = failures_of(history, UnitStyle::word, words); !failures.empty()) {
     text += "\n";
     for (const std::string& each : failures) text += each + "\n";
   }
@@ -161,7 +215,7 @@ std::string history_text(const History& history, const Wording& words) {
                         &HistorySeries::adjustments, words);
   text += changes_table(history, words("drifted, as left to next found"), &HistorySeries::drifts,
                         words);
-  return text + "\n" + sources_text(history, words);
+  return text + "\n" + sources_text(history, words) + without_values_text(history, words);
 }
 
 }  // namespace frustum::app

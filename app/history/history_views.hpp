@@ -17,10 +17,12 @@ namespace frustum::app {
 [[nodiscard]] std::string history_page(const History& history,
                                        const report::Wording& words = report::Wording());
 
-// "cone.form, 2026-03-02: 12.400 um, above the upper control limit 11.9": of each point that
-// fails.
+// Units as files have them (um, deg), or as people read them (µm, °).
+enum class UnitStyle { word, symbol };
+// "cone.form, 2026-03-02: 12.400 um, above the upper control limit 11.900": of each point that
+// fails; with as many digits as tell a value from what it is beyond.
 [[nodiscard]] std::vector<std::string> failures_of(
-    const History& history, const report::Wording& words = report::Wording());
+    const History& history, UnitStyle style, const report::Wording& words = report::Wording());
 // Why a series has no limits, or what is to be said of them; empty where nothing is.
 [[nodiscard]] std::string limits_remark(const HistorySeries& series,
                                         const report::Wording& words = report::Wording());

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
+#include <string_view>
 #include <tuple>
 
 #include "core/counted.hpp"
@@ -36,17 +38,51 @@ std::vector<std::string> names_of(const fs::path& file, const fs::path& folder) 
   return names;
 }
 
+void take_state(DatedResult& result, const std::string& name, TakenFrom from,
+                Diagnostics& problems) {
+  if (result.state != MachineState::not_stated) return;
+  const auto state = state_in(name);
+  if (!state) {
+    problems.push_back(at_file(
+        result.file, error("two-states"_id, fmt::format("'{}' says as-found and as-left", name),
+                           "keep one of them, or list the file with its state in history.toml")));
+    result.state_from = from;
+  } else if (*state != MachineState::not_stated) {
+    result.state = *state;
+    result.state_from = from;
+  }
+}
+
+// Of a date that a name gives: what looks like one and is none.
+void remark_on_date(const DatedResult& result, const MomentInName& found, Diagnostics& problems) {
+  const auto add = [&](Diagnostic problem) {
+    problems.push_back(at_file(result.file, std::move(problem)));
+  };
+  if (!found.no_day.empty()) {
+    add(warning("wrong-date"_id,
+                fmt::format("'{}' is no day of the calendar: passed over", found.no_day),
+                kDateHint));
+  } else if (!found.no_time.empty() &&
+             found.no_time[std::string_view("2026-01-01").size()] == 'T') {
+    add(error("wrong-date"_id, fmt::format("'{}' has no time of day", found.no_time),
+              "00:00 to 23:59, as in 2026-11-23T1405"));
+  } else if (!found.no_time.empty()) {
+    add(warning("wrong-date"_id,
+                fmt::format("'{}' has no time of day: the day alone counts", found.no_time),
+                "00:00 to 23:59, as in 2026-11-23_1405"));
+  }
+}
+
 // The document's own date stays.
 void take_from_names(DatedResult& result, const fs::path& folder, Diagnostics& remarks) {
   const std::vector<std::string> names = names_of(result.file, folder);
   for (std::size_t k = 0; k < names.size(); ++k) {
     const TakenFrom from = k == 0 ? TakenFrom::file_name : TakenFrom::folder_name;
-    const MachineState state = state_in(names[k]);
-    if (result.state == MachineState::not_stated && state != MachineState::not_stated) {
-      result.state = state;
-      result.state_from = from;
+    take_state(result, names[k], from, remarks);
+    const auto [moment, no_day, no_time] = moment_in(names[k]);
+    if (result.date_from == TakenFrom::nowhere) {
+      remark_on_date(result, {moment, no_day, no_time}, remarks);
     }
-    const auto moment = moment_in(names[k]);
     if (!moment) continue;
     if (result.date_from == TakenFrom::nowhere) {
       result.moment = *moment;
@@ -78,17 +114,19 @@ std::vector<fs::path> documents_in(const fs::path& folder, std::error_code& prob
   return files;
 }
 
-// What is no result is passed over, and said so: folders hold other documents beside.
+// What is no result is passed over, and said so: folders hold other documents beside. A damaged
+// file may be one.
 Result<ResultFolder> scanned(const fs::path& folder) {
   ResultFolder found{.title = fs::weakly_canonical(folder).filename().string()};
   std::error_code problem;
-  Diagnostics faults;
   for (const fs::path& file : documents_in(folder, problem)) {
     auto result = read_result(file);
     if (!result) {
       for (Diagnostic d : result.error()) {
-        d.severity = Severity::warning;
-        d.message = "left out: " + d.message;
+        if (d.id == kNoDocument) {
+          d.severity = Severity::warning;
+          d.message = "left out: " + d.message;
+        }
         found.remarks.push_back(std::move(d));
       }
       continue;
@@ -96,15 +134,23 @@ Result<ResultFolder> scanned(const fs::path& folder) {
     if (result->document == kHistoryDocument) continue;
     take_from_names(*result, folder, found.remarks);
     if (result->date_from == TakenFrom::nowhere) {
-      faults.push_back(at_file(file, error("no-date"_id, "no date is known of it", kDateHint)));
+      found.remarks.push_back(
+          at_file(file, error("no-date"_id, "no date is known of it", kDateHint)));
     }
     found.results.push_back(*std::move(result));
   }
   if (problem) {
     return at_file(folder, error("no-folder"_id, "cannot be read: " + problem.message()));
   }
-  if (!faults.empty()) return faults;
+  if (has_error(found.remarks)) return found.remarks;
   return found;
+}
+
+// "r.json:12:7", "r.json: characteristics[2].value"
+std::string place_of(const Diagnostic& d) {
+  std::string place = d.file;
+  if (d.line > 0) place += fmt::format(":{}:{}", d.line, d.column);
+  return d.key.empty() ? place : place + ": " + d.key;
 }
 
 // One table [[result]].
@@ -122,7 +168,7 @@ std::optional<DatedResult> listed_result(const TomlTable& table, Diagnostics& fa
   auto result = read_result(file);
   if (!result) {
     for (const Diagnostic& d : result.error()) {
-      table.fail("file", d.id, fmt::format("{}: {}", d.file, d.message), d.hint);
+      table.fail("file", d.id, fmt::format("{}: {}", place_of(d), d.message), d.hint);
     }
     return std::nullopt;
   }
@@ -158,13 +204,22 @@ Result<ResultFolder> listed(const fs::path& index) {
   ResultFolder found{.title = document->root().text_or(
                          "title", fs::weakly_canonical(index).parent_path().filename().string())};
   const std::string machine = document->root().text_or("machine", "");
+  std::set<fs::path> files;
   for (const TomlTable& table : document->root().tables("result")) {
     if (auto result = listed_result(table, found.remarks)) {
+      if (!files.insert(fs::weakly_canonical(result->file)).second) {
+        table.fail("file", "listed-twice"_id,
+                   fmt::format("{} is listed above already", result->file.string()),
+                   "a result has one date: correct the file or take the table out");
+        continue;
+      }
       if (result->machine.empty()) result->machine = machine;
       found.results.push_back(*std::move(result));
     }
   }
-  if (auto faults = document->finish(); has_error(faults)) return faults;
+  Diagnostics faults = document->finish();
+  faults.insert(faults.end(), found.remarks.begin(), found.remarks.end());
+  if (has_error(faults)) return faults;
   return found;
 }
 

@@ -151,13 +151,6 @@ std::string surface_text(const CutResult& result) {
          worst_text("worst excess", s.deviations.excess, result.limits.excess);
 }
 
-std::string originating_block_text(const CutResult& result) {
-  if (!result.originating_block) return "no surface within 1 um of the point\n";
-  if (!result.originating_block->block) return "the point is on the blank's own surface\n";
-  return fmt::format("the point was made by {}, block {}\n", line_text(*result.originating_block),
-                     *result.originating_block->block);
-}
-
 }  // namespace
 
 bool CutResult::passes() const {
@@ -196,6 +189,14 @@ std::string cut_json(const CutResult& result) {
   return json.dump(2) + '\n';
 }
 
+std::string originating_block_text(const CutResult& result) {
+  if (!result.asked_point) return {};
+  if (!result.originating_block) return "no surface within 1 um of the point\n";
+  if (!result.originating_block->block) return "the point is on the blank's own surface\n";
+  return fmt::format("the point was made by {}, block {}\n", line_text(*result.originating_block),
+                     *result.originating_block->block);
+}
+
 std::string cut_text(const CutResult& result) {
   std::string text;
   if (!result.finished) {
@@ -204,7 +205,7 @@ std::string cut_text(const CutResult& result) {
   }
   if (result.surface) text += surface_text(result);
   text += report::machine_bodies_text(result.machine_bodies) + '\n';
-  if (result.asked_point) text += originating_block_text(result);
+  text += originating_block_text(result);
   if (!result.snapshots.empty()) {
     text += fmt::format("{}, {} to {}\n", counted(result.snapshots.size(), "snapshot"),
                         result.snapshots.front().file, result.snapshots.back().file);

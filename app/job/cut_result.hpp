@@ -65,6 +65,8 @@ struct CutResult {
 
 [[nodiscard]] std::string cut_json(const CutResult& result);
 [[nodiscard]] std::string cut_text(const CutResult& result);
+// Of it, what --point asks for: the answer itself, which no wish for silence takes away.
+[[nodiscard]] std::string originating_block_text(const CutResult& result);
 // The index of a series of snapshots.
 [[nodiscard]] std::string snapshot_index(const std::vector<Snapshot>& snapshots);
 

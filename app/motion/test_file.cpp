@@ -6,6 +6,7 @@
 
 #include "app/job/machine_files.hpp"
 #include "core/decimal.hpp"
+#include "core/made_by.hpp"
 #include "core/toml_document.hpp"
 
 namespace frustum::app {
@@ -371,7 +372,7 @@ std::string test_toml(const TestWords& words, const fs::path& folder) {
         out.number("seed", static_cast<double>(common.seed));
         out.number("stroke", common.stroke);
         write_errors(common.errors, folder, out);
-        return out.toml();
+        return "# " + made_by() + "\n" + out.toml();
       },
       words);
 }

@@ -8,6 +8,7 @@
 
 #include "app/view/text_table.hpp"
 #include "core/decimal.hpp"
+#include "core/made_by.hpp"
 #include "core/toml_document.hpp"
 #include "instruments/traces/touch_trace_file.hpp"
 
@@ -192,10 +193,10 @@ std::string error_file(const kinematics::Machine& machine, const TouchPlan& plan
   std::vector<double> second = positions_of(plan.turns);
   second.push_back(360.0);  // once round, C is where it was
   std::string out = fmt::format(
-      "# The errors at A = C = 0 are zero by definition: the table there is the reference.\n"
+      "# {}\n# The errors at A = C = 0 are zero by definition: the table there is the reference.\n"
       "title     = \"Errors of A and C, identified at indexed positions\"\n"
       "machine   = {}\nstructure = {}\n",
-      toml_text(machine.name()), toml_text(machine.structure()));
+      made_by(), toml_text(machine.name()), toml_text(machine.structure()));
   for (std::size_t k = 0; k < kDirections.size(); ++k) {
     std::vector<double> values;
     for (const std::size_t i : rising) values.push_back(shown(maps.tilt[i], k));

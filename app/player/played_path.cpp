@@ -16,12 +16,16 @@ using kinematics::ToolPath;
 
 constexpr double kFramesOfAProgram = 3000.0;  // what a time line of a screen can show
 constexpr double kLeastStep = 0.01;           // s: half of what a frame of a film shows
+// s: doubles have coordinates of a metre to 1e-13 mm and times of an hour to 5e-13 s, so that a
+// feed over more than this is known to a hundred-thousandth.
+constexpr double kLeastTimeOfFeed = 1e-7;
 
 // One pose of the path, in the order in which the tool passes them.
 struct Kept {
   std::uint32_t pose = 0;
   std::uint32_t block = 0;
   bool starts = false;
+  double way = 0.0;  // mm, of the error-free tip from the start of its chain
 };
 
 std::vector<Kept> passed(const ToolPath& path) {
@@ -86,6 +90,25 @@ class ErrorFreeTips {
   std::map<int, kinematics::ForwardChain> chains_{};
 };
 
+void add_ways(const ToolPath& path, ErrorFreeTips& tips, std::vector<Kept>& poses) {
+  Vec3 last = Vec3::Zero();
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    const Vec3 tip = tips.at(path.axes[poses[k].pose].q, path.blocks[poses[k].block].tool);
+    if (k > 0 && !poses[k].starts) poses[k].way = poses[k - 1].way + (tip - last).norm();
+    last = tip;
+  }
+}
+
+// What is too short to tell a feed has that of the motion before.
+void add_feeds(const std::vector<Kept>& kept, std::vector<PathPoint>& points) {
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    if (points[k].starts) continue;
+    const double time = points[k].time - points[k - 1].time;
+    points[k].feed = time < kLeastTimeOfFeed ? points[k - 1].feed
+                                             : 60.0 * (kept[k].way - kept[k - 1].way) / time;
+  }
+}
+
 // The path of the points alone, for a walk beside another one.
 ToolPath path_of(const ToolPath& path, const std::vector<Kept>& kept) {
   ToolPath few;
@@ -148,13 +171,14 @@ Result<PlayedPath> played_path(const Job& job, const trials::CommandedPiece& com
         {.path_bound = travel->path.bound, .time_law = options.time_law, .time_step = step});
   }
   const ToolPath& path = travel->path;
-  const std::vector<Kept> all = passed(path);
+  ErrorFreeTips tips(job.machine, setup);
+  std::vector<Kept> all = passed(path);
+  add_ways(path, tips, all);
   const std::vector<Kept> kept = thinned(all, budget.most);
   played.left_out = all.size() - kept.size();
   played.blocks = path.blocks;
   played.cycle_time = travel->cycle_time;
   played.bound = path.bound;
-  ErrorFreeTips tips(job.machine, setup);
   for (const Kept& k : kept) {
     const kinematics::AxisPositions& axes = path.axes[k.pose].q;
     PathPoint point{.time = path.times[k.pose], .axes = axes, .block = k.block, .starts = k.starts};
@@ -162,6 +186,7 @@ Result<PlayedPath> played_path(const Job& job, const trials::CommandedPiece& com
     point.deviation = path.poses[k.pose].tip - point.tip;
     played.points.push_back(point);
   }
+  add_feeds(kept, played.points);
   if (played.by_place) {
     kinematics::Setup measured = setup;
     for (auto& [number, tool] : measured.tools) tool.length_error = 0.0;

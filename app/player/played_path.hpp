@@ -25,6 +25,7 @@ struct PathPoint {
   Vec3 tip = Vec3::Zero();  // without errors
   Vec3 deviation = Vec3::Zero();
   kinematics::AxisPositions axes{};
+  double feed = 0.0;  // mm/min: the way of the error-free tip since the point before over its time
   std::uint32_t block = 0;
   bool starts = false;  // a chain begins here
 };

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/serve/served_file.hpp"
+#include "core/made_by.hpp"
 #include "core/whole_file.hpp"
 #include "report/html/html_text.hpp"
 #include "report/html/page_bundle.hpp"
@@ -90,9 +91,9 @@ std::string index_html(const std::string& title, const std::vector<ListedReport>
       "content=\"width=device-width, initial-scale=1\"><title>{0} – Frustum</title><style>{1}"
       "</style></head><body><div class=\"sheet\"><header><p class=\"brand\"><b>Frustum</b> Reports"
       "</p><div class=\"top\"><h1>{0}</h1></div></header><main><section><h2>{2} {3}</h2>{4}"
-      "</section></main></div></body></html>\n",
+      "</section></main><footer><p>{5}.</p></footer></div></body></html>\n",
       html_text(title), report::page_style(), reports.size(),
-      reports.size() == 1 ? "report" : "reports", content);
+      reports.size() == 1 ? "report" : "reports", content, made_by());
 }
 
 }  // namespace frustum::app

@@ -9,7 +9,9 @@
 //            with four even one far off all others widens the limits beyond itself
 //            ((n-1)^2 > 2.66 n). A value that begins anew (after an adjustment) has no range
 // Errors   : none; nothing where there are fewer values
-// Accuracy : that of the two factors as printed, 4 digits
+// Accuracy : that of the two factors as printed, 4 digits. Values are doubles nearest to decimals,
+//            and sums are rounded: `rounding` bounds by how much a limit differs from that of the
+//            decimals, so that equal values are within limits that are equal to them
 // Source   : ISO 7870-2:2013, Shewhart control charts (individuals and moving range); Shewhart 1931
 #pragma once
 
@@ -29,7 +31,15 @@ struct ControlLimits {
   double mean_moving_range = 0.0;
   double lower = 0.0, upper = 0.0;  // of a value
   double upper_moving_range = 0.0;
+  double rounding = 0.0;   // of each of them, with that of a value beside it
   std::size_t values = 0;  // that they are found from
+
+  [[nodiscard]] bool is_beyond(double value) const {
+    return value < lower - rounding || value > upper + rounding;
+  }
+  [[nodiscard]] bool is_range_beyond(double range) const {
+    return range > upper_moving_range + rounding;
+  }
 };
 
 // |x_i - x_(i-1)| of each value; the first and those that begin anew have none. `anew`: as many as

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/made_by.hpp"
 #include "report/chart/polar_chart.hpp"
 #include "report/chart/profile_chart.hpp"
 #include "report/html/html_text.hpp"
@@ -87,8 +88,9 @@ std::string charts_svg(const RunReport& report) {
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
       "width=\"{0:g}\" height=\"{1:g}\" viewBox=\"0 0 {0:g} {1:g}\">\n<title>{2}</title>\n"
-      "<style>{3}</style>\n<rect width=\"{0:g}\" height=\"{1:g}\" fill=\"#ffffff\"/>\n{4}</svg>\n",
-      width + 2.0 * kMargin, y, html_text(report.title), style(), drawings);
+      "<desc>{5}</desc>\n<style>{3}</style>\n<rect width=\"{0:g}\" height=\"{1:g}\" "
+      "fill=\"#ffffff\"/>\n{4}</svg>\n",
+      width + 2.0 * kMargin, y, html_text(report.title), style(), drawings, html_text(made_by()));
 }
 
 }  // namespace frustum::report

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/made_by.hpp"
 #include "report/number_text.hpp"
 
 namespace frustum::report {
@@ -96,10 +97,10 @@ void DxfDrawing::text(std::string_view layer, int colour, const Vec3& at, double
 }
 
 std::string DxfDrawing::file() const {
-  std::string text = group(0, "SECTION") + group(2, "HEADER") + group(9, "$ACADVER") +
-                     group(1, "AC1009") + group(0, "ENDSEC") + group(0, "SECTION") +
-                     group(2, "TABLES") + group(0, "TABLE") + group(2, "LAYER") +
-                     group(70, std::to_string(layers_.size()));
+  std::string text = group(999, made_by()) + group(0, "SECTION") + group(2, "HEADER") +
+                     group(9, "$ACADVER") + group(1, "AC1009") + group(0, "ENDSEC") +
+                     group(0, "SECTION") + group(2, "TABLES") + group(0, "TABLE") +
+                     group(2, "LAYER") + group(70, std::to_string(layers_.size()));
   for (const auto& [name, colour] : layers_) {
     text += group(0, "LAYER") + group(2, name) + group(70, "0") +
             group(62, std::to_string(colour)) + group(6, "CONTINUOUS");

@@ -1,11 +1,12 @@
 // A drawing in the Drawing Exchange Format: lines, arcs, circles, points and polylines on layers.
 //
-// Model  : ASCII DXF of AutoCAD release 12 (AC1009), which every program reads: a header, a table
-//          of layers, entities; an arc is the counter-clockwise one between its angles
+// Model  : ASCII DXF of AutoCAD release 12 (AC1009), which every program reads: a comment with the
+//          version of Frustum, a header, a table of layers, entities; an arc is the
+//          counter-clockwise one between its angles
 // Units  : mm; the format itself states none
 // Errors : none; what is not finite is left out; names of layers are put into the characters that
 //          the release has
-// Source : Autodesk, DXF Reference, group codes 0, 8, 10 to 31, 40, 50, 51, 62, 66, 70
+// Source : Autodesk, DXF Reference, group codes 0, 8, 10 to 31, 40, 50, 51, 62, 66, 70, 999
 #pragma once
 
 #include <span>

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <unordered_set>
 
+#include "core/program_version.hpp"
 #include "report/form_parameter.hpp"
 #include "report/html/html_text.hpp"
 #include "report/number_text.hpp"
@@ -20,7 +21,11 @@ using pugi::xml_node;
 
 class Suite {
  public:
-  Suite(xml_node suite, std::string part) : suite_(suite), part_(std::move(part)) {}
+  Suite(xml_node suite, std::string part) : suite_(suite), part_(std::move(part)) {
+    xml_node property = suite_.append_child("properties").append_child("property");
+    property.append_attribute("name") = "frustum.version";
+    property.append_attribute("value") = std::string(program_version()).c_str();
+  }
 
   // A test that passes has no message: what is doubtful of its uncertainty is its output.
   void pass(const std::string& name, std::string_view doubt) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/made_by.hpp"
 #include "report/exchange/dxf_drawing.hpp"
 #include "report/html/html_text.hpp"
 #include "report/number_text.hpp"
@@ -115,12 +116,12 @@ std::string tool_svg(const cutter::Cutter& tool, const std::string& title) {
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}mm\" height=\"{1}mm\" "
-      "viewBox=\"{2} {3} {0} {1}\">\n<title>{4}</title>\n"
+      "viewBox=\"{2} {3} {0} {1}\">\n<title>{4}</title>\n<desc>{7}</desc>\n"
       "<style>path{{fill:#eef0f2;stroke:#1b2129;stroke-width:0.2}} .shank{{fill:#ffffff}} "
       ".holder{{fill:#d9dee3}} .axis{{stroke:#b3261e;stroke-width:0.15;stroke-dasharray:4 1 1 1}}"
       "</style>\n{5}<path class=\"axis\" d=\"M0 {6}L0 {3}\"/>\n</svg>\n",
       exact_decimal(width), exact_decimal(height), left, upper, html_text(title), paths,
-      exact_decimal(kMargin));
+      exact_decimal(kMargin), made_by());
 }
 
 }  // namespace frustum::report

@@ -66,9 +66,7 @@ std::string dynamics_html(const DynamicsPage& page) {
   body += "</dl></header>\n<main>";
   for (const DynamicsTable& table : page.tables) body += table_of(table);
   body += responses_of(page) + maps_of(page) + modes_of(page);
-  body +=
-      "</main>\n<footer><p>Made by Frustum. The licences of the bundled packages are in the source "
-      "of this page.</p></footer>\n";
+  body += page_end();
   return filled_page(html_text(page.title), body, "{}");
 }
 

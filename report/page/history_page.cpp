@@ -63,11 +63,7 @@ std::string history_html(const HistoryPage& page) {
   if (!page.remarks.empty()) {
     body += section("remarks", words("Remarks"), listed(page.remarks, "warning"));
   }
-  body += "</main>\n<footer><p>" +
-          words(
-              "Made by Frustum. The licences of the bundled packages are in the source of this "
-              "page.") +
-          "</p></footer>\n";
+  body += page_end(words);
   return filled_page(html_text(page.title), body, "{}", words.code());
 }
 

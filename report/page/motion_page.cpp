@@ -100,11 +100,7 @@ std::string motion_html(const MotionPage& page) {
   }
   body += setup_section(page, words) + trace_section(page, words) + table_sections(page) +
           contribution_section(page, words) + told_section(page, words);
-  body += "</main>\n<footer><p>" +
-          words(
-              "Made by Frustum. The licences of the bundled packages are in the source of this "
-              "page.") +
-          "</p></footer>\n";
+  body += page_end(words);
   return filled_page(html_text(page.title), body, "{}", words.code());
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "core/program_version.hpp"
 #include "report/html/html_text.hpp"
 #include "report/number_text.hpp"
 
@@ -58,6 +59,15 @@ std::string with_unit(const std::string& number, std::string_view unit, const Wo
 
 std::string fact(std::string_view name, const std::string& value) {
   return value.empty() ? "" : fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", name, value);
+}
+
+std::string page_end(const Wording& words) {
+  return "</main>\n<footer><p>" +
+         words(
+             "Made by Frustum {0}. The licences of the bundled packages are in the source of this "
+             "page.",
+             program_version()) +
+         "</p></footer>\n";
 }
 
 std::string capital(metrology::Verdict verdict, const Wording& words) {

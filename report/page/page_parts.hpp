@@ -41,6 +41,8 @@ class Table {
                                     const Wording& words);
 // <div><dt>name</dt><dd>value</dd></div>; nothing for an empty value.
 [[nodiscard]] std::string fact(std::string_view name, const std::string& value);
+// What ends the main part of a page: the version that made it.
+[[nodiscard]] std::string page_end(const Wording& words = Wording());
 // "Pass", "Fail", "Uncertain".
 [[nodiscard]] std::string capital(metrology::Verdict verdict, const Wording& words);
 

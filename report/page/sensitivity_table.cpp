@@ -8,6 +8,7 @@
 #include <span>
 #include <string_view>
 
+#include "core/made_by.hpp"
 #include "core/program_version.hpp"
 #include "report/colour_scale.hpp"
 #include "report/html/html_text.hpp"
@@ -350,7 +351,7 @@ std::string sensitivity_html(const SensitivityTable& table) {
         "perfect.</p>\n{}</section>\n",
         heat_map(table, table.even));
   }
-  return html + "</main></body></html>\n";
+  return html + "<footer><p>" + made_by() + ".</p></footer></main></body></html>\n";
 }
 
 }  // namespace frustum::report

@@ -227,11 +227,7 @@ std::string study_html(const StudyPage& page) {
           distribution_section(page, words) + scatter_section(page, words) +
           risk_section(page, words) + share_section(page, words) + allocation_section(page, words) +
           map_section(page, words);
-  body += "</main>\n<footer><p>" +
-          words(
-              "Made by Frustum. The licences of the bundled packages are in the source of this "
-              "page.") +
-          "</p></footer>\n";
+  body += page_end(words);
   return filled_page(html_text(page.title), body, "{}", words.code());
 }
 

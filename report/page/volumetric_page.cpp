@@ -9,6 +9,7 @@
 #include "core/whole_file.hpp"
 #include "report/html/html_text.hpp"
 #include "report/html/page_bundle.hpp"
+#include "report/page/page_parts.hpp"
 #include "report/page/volume_drawing.hpp"
 
 namespace frustum::report {
@@ -143,9 +144,7 @@ std::string volumetric_html(const VolumetricPage& page) {
         "errors are independent, centred on zero, and their tolerances are the same multiple of "
         "their standard deviations.</p></section>\n";
   }
-  body +=
-      "</main>\n<footer><p>Made by Frustum. The licences of the bundled packages are in the "
-      "source of this page.</p></footer>\n";
+  body += page_end();
   return filled_page(html_text(page.title), body, volume_data(page));
 }
 

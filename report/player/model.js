@@ -16,28 +16,11 @@ async function reals(packed, Type = Float32Array) {
   return values;
 }
 
-// The feed of the tip along each motion, mm/min: its way over its time. Motions too short for the digits of the
-// times take that of the one before.
-function feedsReached(model) {
-  const {times, tips, starts, count} = model;
-  const feeds = new Float32Array(count);
-  for (let k = 1; k < count; ++k) {
-    const seconds = times[k] - times[k - 1];
-    if (starts[k] || seconds < 2e-5) {
-      feeds[k] = starts[k] ? 0 : feeds[k - 1];
-      continue;
-    }
-    const i = 3 * k;
-    feeds[k] = 60 / seconds * Math.hypot(tips[i] - tips[i - 3], tips[i + 1] - tips[i - 2], tips[i + 2] - tips[i - 1]);
-  }
-  return feeds;
-}
-
 export async function modelOf(data) {
   const {points, blocks} = data;
-  const [times, tips, deviations, linear, rotary, block, begins] = await Promise.all([
+  const [times, tips, deviations, linear, rotary, reached, block, begins] = await Promise.all([
     reals(points.times, Float64Array), reals(points.tips), reals(points.deviations), reals(points.linear, Float64Array),
-    reals(points.rotary, Float64Array), counts(points.blocks), counts(points.starts),
+    reals(points.rotary, Float64Array), reals(points.feeds), counts(points.blocks), counts(points.starts),
   ]);
   const [lines, texts, tools, rapid, feeds, contents] = await Promise.all([
     counts(blocks.lines), counts(blocks.texts), counts(blocks.tools), counts(blocks.rapid), reals(blocks.feeds),
@@ -48,12 +31,12 @@ export async function modelOf(data) {
   begins.forEach((k) => starts[k] = 1);
   const model = {
     count, times, tips, deviations, linear, rotary, block, starts,
+    reached,  // mm/min: of the tip along the motion that ends at each point
     blocks: {lines, texts, tools, rapid, feeds},
     texts: data.texts.map(({name}, k) => ({name, lines: contents[k].replace(/\r/g, '').replace(/\n$/, '').split('\n')})),
     duration: times[count - 1],
     begin: times[0],
   };
-  model.reached = feedsReached(model);
   model.ends = endsOfLines(model);
   return model;
 }

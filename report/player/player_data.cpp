@@ -134,7 +134,7 @@ ordered_json blocks_json(const PlayerPage& page) {
 }
 
 ordered_json points_json(const PlayerPage& page) {
-  std::vector<double> times, tips, deviations, linear, rotary;
+  std::vector<double> times, tips, deviations, feeds, linear, rotary;
   std::vector<std::uint32_t> blocks, starts;
   std::size_t rotary_count = 0;
   for (const PlayerJoint& joint : page.joints) rotary_count += joint.rotary ? 1 : 0;
@@ -147,6 +147,7 @@ ordered_json points_json(const PlayerPage& page) {
     for (std::size_t k = 0; k < page.joints.size(); ++k) {
       (page.joints[k].rotary ? rotary : linear).push_back(point.axes[k]);
     }
+    feeds.push_back(point.feed);
     blocks.push_back(point.block);
     if (point.starts) starts.push_back(static_cast<std::uint32_t>(&point - page.points.data()));
   }
@@ -155,6 +156,7 @@ ordered_json points_json(const PlayerPage& page) {
                     {"times", packed_reals(times, 1, kTimeStep)},
                     {"tips", packed_reals(tips, 3, kPlaceStep)},
                     {"deviations", packed_reals(deviations, 3, kDeviationStep)},
+                    {"feeds", packed_reals(feeds, 1, kFeedStep)},
                     {"blocks", packed_counts(blocks)},
                     {"starts", packed_counts(starts)}};
   json["linear"] =

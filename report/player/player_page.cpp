@@ -164,9 +164,7 @@ std::string player_html(const PlayerPage& page) {
           "its "
           "NC line; drag to turn; wheel with Ctrl to zoom.</span></p>\n" +
           (notes.empty() ? std::string() : "<ul class=\"remarks\">" + notes + "</ul>\n"));
-  body +=
-      "</main>\n<footer><p>Made by Frustum. The licences of the bundled packages are in the "
-      "source of this page.</p></footer>\n";
+  body += page_end();
   return filled_page(html_text(page.title), body, json_in_script(player_data(page)));
 }
 

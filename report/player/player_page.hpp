@@ -71,6 +71,7 @@ struct PlayerPoint {
   double time = 0.0;
   Vec3 tip = Vec3::Zero();  // without errors
   Vec3 deviation = Vec3::Zero();
+  double feed = 0.0;           // mm/min, of the tip on the motion that ends here
   std::vector<double> axes{};  // in the order of the joints: tool side, then workpiece side
   std::uint32_t block = 0;     // whose motion ends here; of the first point, that which begins
   bool starts = false;         // no path leads here from the point before

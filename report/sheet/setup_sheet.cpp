@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/made_by.hpp"
 #include "core/whole_file.hpp"
 #include "report/html/html_text.hpp"
 #include "report/number_text.hpp"
@@ -126,7 +127,7 @@ std::string setup_sheet(const SetupSheet& sheet) {
       "<b class=\"t\">Blue</b>: the tool where the pass begins (filled) and ends (dashed), and its "
       "feed; \u2297 runs away from the viewer, \u2299 toward. H: height above the tilt axis at "
       "rotary zero.</p>\n";
-  return html + "</main></body></html>\n";
+  return html + "<p class=\"legend\">" + made_by() + ".</p></main></body></html>\n";
 }
 
 Result<std::filesystem::path> write_setup_sheet(const std::filesystem::path& path,

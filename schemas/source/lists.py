@@ -2,9 +2,9 @@
 
 from vocabulary import Schema, choice, constant, count, flag, list_of, map_of, number, table, tables, text, texts, vector
 
-MACHINES = Schema("machines", "1.0", "List of machines", list_of(table("", {
+MACHINES = Schema("machines", "1.1", "List of machines", list_of(table("", {
     "name!": text("By which commands call it"), "structure!": text("Structure code"), "title!": text("In words"),
-    "file!": text("Its file")}), "frustum machines --json"))
+    "file!": text("Its file"), "version!": text("Of the program that lists it")}), "frustum machines --json"))
 
 MOTION_NAMES = Schema("motion-names", "1.0", "Names of motion tests", map_of(table("", {
     "machines!": text("Of which structure"), "test!": text("Command"), "shows!": text("What it shows"),

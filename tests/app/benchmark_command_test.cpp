@@ -48,6 +48,12 @@ TEST_F(BenchmarkSystem, ABenchmarkIsMadeAgainBitForBit) {
   const Outcome made = run("benchmark make --keys keys --out b --json");
   ASSERT_EQ(made.exit_code, 0) << made.err;
   EXPECT_EQ(read(folder_ / "b/machines/m01/s-piece/job.toml").find("seed = 0"), std::string::npos);
+  // Nor do the files of a machine depend on the version that made them.
+  for (const char* file : {"cone/job.toml", "cone/cone.plan.toml", "contour/blank.ply"}) {
+    const std::string bytes = read(folder_ / "b/machines/m01" / file);
+    EXPECT_FALSE(bytes.empty()) << file;
+    EXPECT_EQ(bytes.find("Made by"), std::string::npos) << file;
+  }
   const Outcome holds = run("benchmark verify b --json");
   EXPECT_EQ(holds.exit_code, 0) << holds.out;
   // The laws alone, and what was measured of a cone: better.

@@ -259,10 +259,116 @@ TEST_F(HistorySystem, RefusesWhatHasNoOrder) {
   expect_refusal("same --baseline 3", {"--baseline 3: too few"});
 }
 
+// Every number is the same: no limit is narrower than they are wide.
+TEST_F(HistorySystem, EqualResultsPass) {
+  for (const char* date : kDates) {
+    write_result(fmt::format("r/{}.json", date), 45.00016, "", 50.0);
+    write_estimate(fmt::format("e/{}.json", date), 45.00016);
+  }
+  const json doc = history("r", 0);
+  EXPECT_EQ(doc["failures"], json::array());
+  EXPECT_EQ(doc["series"][0]["limits"]["upper"], 45.00016);
+  EXPECT_EQ(history("e", 0)["failures"], json::array());
+  // One that differs by a nanometre is beyond them, and the texts tell the two apart.
+  write_result("r/2026-08-01.json", 45.00017, "", 50.0);
+  const json other = history("r --baseline 7", 1);
+  ASSERT_EQ(other["failures"].size(), 1U);
+  EXPECT_EQ(other["failures"][0],
+            "cone.form, 2026-08-01: 45.00017 um, above the upper control limit 45.00016, "
+            "changed by 0.00001, limit 0.00000");
+}
+
+TEST_F(HistorySystem, DamagedResultsAreErrors) {
+  write_result("r/2026-01-01.json", 10.0);
+  const std::string sound = read(folder_ / "r/2026-01-01.json");
+  const auto refused = [&](const std::string& text, const std::vector<std::string>& words) {
+    write("r/2026-02-01.json", text);
+    expect_refusal("r", words);
+  };
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = sound;
+    const auto at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return at == std::string::npos ? text : text.replace(at, from.size(), to);
+  };
+  const json pretty = json::parse(sound);
+  refused(pretty.dump(2).substr(0, 60), {"2026-02-01.json:", ": error: ends before the document"});
+  refused("", {"2026-02-01.json:1:1: error: ends before"});
+  refused("{\n  \"schema\": frustum}", {"2026-02-01.json:2:14: error: is no JSON from here on"});
+  refused(changed("frustum/result/1", "frustum/result/2"),
+          {"schema: 'frustum/result/2' is another form of it", "reads frustum/result/1"});
+  refused(changed("frustum/result/1", "frustum/result"), {"is another form"});
+  refused(changed("\"value\":10.0", "\"value\":\"abc\""),
+          {"characteristics[0].value: expected a number, or null"});
+  refused(changed("\"value\":10.0,", ""), {"value: is missing: expected a number, or null"});
+  refused(changed(",\"unit\":\"um\"", ""), {"unit: is missing: expected a text"});
+  refused(changed("\"unit\":\"um\"", "\"unit\":\"\\u00b5m\""), {"unit: '\u00b5m' is not known"});
+  refused(changed("\"verdict\":\"pass\"", "\"verdict\":\"gut\""),
+          {"verdict: 'gut' is not known here"});
+  refused(changed("\"iwf-bc, C on B\"", "5"), {"machine: expected a text"});
+  refused(changed("\"characteristics\"", "\"characterstics\""),
+          {"characteristics: is missing: expected a list"});
+  refused(changed("\"date\":null", "\"date\":\"1.2.2026\""),
+          {"evidence.date: '1.2.2026' is no date"});
+  // One that says null was not measured, which is said.
+  write("r/2026-02-01.json", changed("\"value\":10.0", "\"value\":null"));
+  const Outcome without = run("history r");
+  EXPECT_EQ(without.exit_code, 0) << without.err;
+  EXPECT_NE(without.out.find("2026-02-01: no value of cone.form"), std::string::npos)
+      << without.out;
+}
+
+TEST_F(HistorySystem, NamesWhatNamesSayWrong) {
+  write_result("r/2026-01-01T2430.json", 10.0);
+  expect_refusal("r", {"'2026-01-01T2430' has no time of day", "00:00 to 23:59"});
+  fs::remove(folder_ / "r/2026-01-01T2430.json");
+  write_result("r/2026-01-01T09001.json", 10.0);
+  expect_refusal("r", {"'2026-01-01T09001' has no time of day"});
+  fs::remove(folder_ / "r/2026-01-01T09001.json");
+  write_result("r/2026-01-02_As-Found.json", 10.0);
+  write_result("r/2026-01-03_AS_LEFT.json", 10.0);
+  write_result("r/2026-01-04_4711_has-leftovers.json", 10.0);
+  const Outcome outcome = run("history r --json");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.err.find("'2026-01-04_4711' has no time of day: the day alone counts"),
+            std::string::npos)
+      << outcome.err;
+  const json doc = json::parse(outcome.out);
+  EXPECT_EQ(doc["results"][0]["state"], "as-found");
+  EXPECT_EQ(doc["results"][1]["state"], "as-left");
+  EXPECT_TRUE(doc["results"][2]["state"].is_null());
+  write_result("r/2026-01-05-as-found-as-left.json", 10.0);
+  expect_refusal("r", {"'2026-01-05-as-found-as-left.json' says as-found and as-left"});
+  // Of a file that the index dates, names need say nothing; one result has one date.
+  write("r/history.toml",
+        "[[result]]\nfile = \"2026-01-02_As-Found.json\"\ndate = \"2026-01-02\"\n"
+        "[[result]]\nfile = \"../r/2026-01-02_As-Found.json\"\ndate = \"2026-01-09\"\n");
+  expect_refusal("r", {"history.toml:5", "is listed above already"});
+}
+
+TEST_F(HistorySystem, SaysThatABaselineIsNotReached) {
+  write_half_a_year();
+  const Outcome outcome = run("history r --baseline 30");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("--baseline 30: fewer results as found of cone.form (7)"),
+            std::string::npos)
+      << outcome.err;
+}
+
+TEST_F(HistorySystem, ThePageHasOneSpellingOfAUnit) {
+  for (std::size_t i = 0; i < kDates.size(); ++i) {
+    write_result(fmt::format("r/{}.json", kDates[i]), kValues[i], "", 12.0);
+  }
+  EXPECT_EQ(run("history r --out out").exit_code, 1);
+  const std::string page = read(folder_ / "out/history.html");
+  EXPECT_NE(page.find("12.900 µm, out of its tolerance 12.000"), std::string::npos);
+  EXPECT_EQ(page.find(" um,"), std::string::npos);
+}
+
 TEST_F(HistorySystem, NamesWhatItLeavesOutAndWhatContradicts) {
   write_result("r/2026-01-01.json", 10.0);
   write("r/2026-01-02.json", R"({"schema": "frustum/study/1"})");
-  write("r/2026-01-03.json", "no json");
+  write("r/2026-01-03.json", "[1, 2]");
   write_result("r/2026-01-09.json", 10.0, "2026-01-08");
   const Outcome outcome = run("history r");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -75,6 +75,7 @@ TEST_F(ViewCommandSystem, PlaysAProgramOnAMachine) {
   EXPECT_EQ(doc["largest_deviation_um"], 0.0);
   EXPECT_TRUE(doc["steps"].empty());
   EXPECT_TRUE(fs::exists(folder_ / "out/view.html"));  // beside the program
+  EXPECT_EQ(run("view plate.nc --machine three-axis --snapshots 0").exit_code, 0);
   const Outcome assumed = run("view plate.nc --machine three-axis");
   EXPECT_EQ(assumed.exit_code, 0);
   EXPECT_THAT(assumed.err, HasSubstr("tool 1 counts as 100 mm long"));
@@ -112,6 +113,8 @@ TEST_F(ViewCommandSystem, RefusesWithPlaceAndRemedy) {
   refused("plate.toml --snapshots 0 --pitch 2", "--pitch is of the workpiece", "--snapshots 1");
   refused("plate.toml --snapshots 1 --pitch 9", "a pitch of 9 mm is too coarse", "quarter");
   refused("plate.nc --machine three-axis --tool-radius-error 2um", "no workpiece is cut", "--job");
+  refused("plate.nc --machine three-axis --snapshots 5", "a program alone has no blank", "--job");
+  refused("plate.nc --machine three-axis --pitch 2", "a program alone has no blank", "--job");
   refused("none.nc --machine three-axis", "none.nc", "");
   refused("plate.nc --machine three-axis --error EB0C=10urad", "EB0C", "");
   std::ofstream(folder_ / "idle.nc") << "G21 G90\nM30\n";

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "calibration/history/control_chart.hpp"
@@ -54,6 +55,32 @@ TEST(ControlChart, HasNoRangeAcrossAnAdjustment) {
   EXPECT_NEAR(limits->mean_moving_range, 1.26, 1e-12);
   EXPECT_FALSE(control_limits(kValues, {true, false, true, false, true, false, true}))
       << "three ranges are too few";
+}
+
+// 45.00016 has no sum of seven that is seven times it; limits of equal values are that value.
+TEST(ControlChart, EqualValuesAreWithinTheirLimits) {
+  for (const double value : {45.00016, 0.1, -3.3333, 12.345e6, 1e-9, 0.0}) {
+    for (std::size_t count = kFewestForLimits; count < 60; ++count) {
+      const auto limits = control_limits(std::vector<double>(count, value));
+      ASSERT_TRUE(limits);
+      EXPECT_FALSE(limits->is_beyond(value)) << count << " of " << value;
+      EXPECT_FALSE(limits->is_range_beyond(0.0));
+      EXPECT_LE(limits->rounding, 2e-15 * std::abs(value));
+      EXPECT_TRUE(limits->is_beyond(value * (1.0 + 4e-15) + 1e-300));
+      EXPECT_TRUE(limits->is_range_beyond(4e-15 * std::abs(value) + 1e-300));
+    }
+  }
+}
+
+// What is beyond by 1e-12 is beyond.
+TEST(ControlChart, WhatIsBeyondByLittleIsBeyond) {
+  const auto limits = control_limits(kValues);
+  ASSERT_TRUE(limits);
+  EXPECT_LT(limits->rounding, 1e-13);
+  EXPECT_TRUE(limits->is_beyond(limits->upper + 1e-12));
+  EXPECT_TRUE(limits->is_beyond(limits->lower - 1e-12));
+  EXPECT_FALSE(limits->is_beyond(limits->upper));
+  EXPECT_TRUE(limits->is_range_beyond(limits->upper_moving_range + 1e-12));
 }
 
 TEST(Trend, FindsTheSlopeAndItsInterval) {

@@ -117,6 +117,8 @@ async function checkKeysAlone({browser, expect, settled}, page) {
   const colour = () => browser.evaluate(`document.querySelector('[data-colour]').value + ' ' +
       document.querySelector('.legend b').textContent`);
   const shown = [await colour()];
+  const most = await browser.evaluate(`document.querySelector('.legend .strip span').textContent`);
+  expect(most === '500', page, `the scale of feeds ends at ${most} mm/min, 500 are programmed`);
   for (let k = 0; k < 2; ++k) {
     await press(browser, 'c', {code: 'KeyC'});
     shown.push(await colour());

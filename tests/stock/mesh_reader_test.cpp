@@ -8,6 +8,8 @@
 #include <cstring>
 #include <string>
 
+#include "core/program_version.hpp"
+
 namespace frustum::stock {
 namespace {
 
@@ -183,6 +185,8 @@ TEST(ThreeMf, IsAnArchiveOfAModelAndWhatPointsToIt) {
   EXPECT_THAT(unzipped(bytes, "_rels/.rels"), HasSubstr("Target=\"/3D/3dmodel.model\""));
   const std::string model = unzipped(bytes, "3D/3dmodel.model");
   EXPECT_THAT(model, HasSubstr("unit=\"millimeter\""));
+  EXPECT_THAT(model, HasSubstr("<metadata name=\"Application\">Frustum " +
+                               std::string(program_version()) + "</metadata>\n<resources>"));
   EXPECT_THAT(model, HasSubstr("<vertex x=\"0.0000000\" y=\"0.0000000\" z=\"0.2500000\"/>"));
   EXPECT_THAT(model, HasSubstr("<triangle v1=\"2\" v2=\"0\" v3=\"3\"/>\n</triangles>"));
   EXPECT_EQ(bytes, mesh_bytes(one_tetrahedron(), MeshFormat::three_mf));

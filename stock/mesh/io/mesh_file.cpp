@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/base64.hpp"
+#include "core/made_by.hpp"
 #include "core/whole_file.hpp"
 #include "stock/mesh/io/zip_archive.hpp"
 
@@ -41,7 +42,8 @@ Vec3 triangle_normal(const SurfaceMesh& mesh, const std::array<std::uint32_t, 3>
 }
 
 std::string stl_bytes(const SurfaceMesh& mesh) {
-  std::string out = "binary STL, mm";  // must not begin with "solid", the mark of text STL
+  // It must not begin with "solid", the mark of text STL.
+  std::string out = "binary STL, mm. " + made_by();
   out.resize(80, ' ');
   out.reserve(84 + 50 * mesh.triangles.size());
   put_word(out, static_cast<std::uint32_t>(mesh.triangles.size()));
@@ -65,13 +67,14 @@ std::string bare_ply_bytes(const SurfaceMesh& mesh) {
   std::string out = fmt::format(
       "ply\n"
       "format binary_little_endian 1.0\n"
+      "comment {}\n"
       "comment lengths in mm\n"
       "element vertex {}\n"
       "property double x\nproperty double y\nproperty double z\n"
       "element face {}\n"
       "property list uchar uint vertex_indices\n"
       "end_header\n",
-      mesh.vertices.size(), mesh.triangles.size());
+      made_by(), mesh.vertices.size(), mesh.triangles.size());
   out.reserve(out.size() + 24 * mesh.vertices.size() + 13 * mesh.triangles.size());
   for (const Vec3& vertex : mesh.vertices) {
     for (const double x : vertex) put(out, x);
@@ -85,6 +88,7 @@ std::string ply_bytes(const SurfaceMesh& mesh) {
   std::string out = fmt::format(
       "ply\n"
       "format binary_little_endian 1.0\n"
+      "comment {}\n"
       "comment lengths in mm, deviations in micrometres\n"
       "element vertex {}\n"
       "property double x\nproperty double y\nproperty double z\n"
@@ -95,7 +99,7 @@ std::string ply_bytes(const SurfaceMesh& mesh) {
       "element face {}\n"
       "property list uchar uint vertex_indices\n"
       "end_header\n",
-      mesh.vertices.size(), mesh.triangles.size());
+      made_by(), mesh.vertices.size(), mesh.triangles.size());
   out.reserve(out.size() + 45 * mesh.vertices.size() + 13 * mesh.triangles.size());
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     for (const double x : mesh.vertices[v]) put(out, x);
@@ -111,7 +115,7 @@ std::string ply_bytes(const SurfaceMesh& mesh) {
 }
 
 std::string obj_bytes(const SurfaceMesh& mesh) {
-  std::string out = "# lengths in mm\n";
+  std::string out = "# " + made_by() + "\n# lengths in mm\n";
   const auto to = std::back_inserter(out);
   // 0.1 nm: a digit more than the surface is known to.
   for (const Vec3& v : mesh.vertices) {
@@ -152,6 +156,8 @@ std::string three_mf_bytes(const SurfaceMesh& mesh) {
   std::string model =
       R"(<?xml version="1.0" encoding="UTF-8"?>
 <model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
+<metadata name="Application">Frustum )" +
+      std::string(program_version()) + R"(</metadata>
 <resources><object id="1" type="model"><mesh>
 <vertices>
 )";
@@ -190,11 +196,11 @@ std::string vtp_bytes(const SurfaceMesh& mesh) {
   const std::size_t n = mesh.vertices.size();
   const std::size_t m = mesh.triangles.size();
   std::string out = fmt::format(
-      "<?xml version=\"1.0\"?>\n"
+      "<?xml version=\"1.0\"?>\n<!-- {} -->\n"
       "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
       "header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" "
       "NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n",
-      n, m);
+      made_by(), n, m);
   out += "<PointData Normals=\"Normals\" Scalars=\"deviation_um\">\n";
   out += vtp_array("Float32", "Normals", 3, 12 * n, [&](std::string& data) {
     for (std::size_t v = 0; v < n; ++v) {
