@@ -71,6 +71,9 @@ inline constexpr PhraseRow kAxesRows[] = {
     {"nearest approach", "kleinster Abstand"},
     {"the machine file has no bodies: not looked for",
      "die Maschinendatei gibt keine Körper an: nicht gesucht"},
+    {"bar", "Kugelstab"},
+    {"stem of the spindle ball", "Schaft der Spindelkugel"},
+    {"cup of the table ball", "Aufnahme der Tischkugel"},
     {"{0} between {1} and {2}, at {3} deg", "{0} zwischen {1} und {2}, bei {3} deg"},
     {"The bar is mounted {0} too long, where the program stops. Travels are those of the pass.",
      "Der Kugelstab wird {0} zu lang eingesetzt, wo das Programm anhält. Die Verfahrwege sind "

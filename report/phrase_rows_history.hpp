@@ -76,7 +76,7 @@ inline constexpr PhraseRow kHistoryRows[] = {
     {"LCL", "UEG"},
     {"UCL", "OEG"},
     {"mean", "Mittelwert"},
-    {"moving range", "gleitende Spannweite"},
+    {"moving range", "Spannweite"},
     {"{0}: {1} over the date", "{0}: {1} über dem Datum"},
     {"1 result: no control limits, they need {0}",
      "1 Ergebnis: keine Eingriffsgrenzen, dafür sind {0} nötig"},

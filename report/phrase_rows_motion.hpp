@@ -26,7 +26,7 @@ inline constexpr PhraseRow kMotionRows[] = {
     {"told, whatever the set-up: {0}", "bestimmbar, wie auch immer aufgebaut: {0}"},
     {"not told alone: {0}", "allein nicht bestimmbar: {0}"},
     {"nothing", "nichts"},
-    {"Polar trace", "Polardiagramm"},
+    {"Polar trace", "Aufzeichnung"},
     {"from {0} to {1} {3}, {2} {3} per division", "von {0} bis {1} {3}, {2} {3} je Teilung"},
     {"Displacements in the plane of the table", "Verschiebungen in der Tischebene"},
     {"Traces", "Verläufe"},

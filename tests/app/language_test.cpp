@@ -135,7 +135,7 @@ TEST_F(LanguageSystem, Motion) {
   };
   const Case cases[] = {
       {"circle iwf-bc --plane XY --length 150 --center 0,0,150 --error EC0Y=30urad --error "
-       "\"EXX=linear 10um\" --noise 0.1um --tool-length 150",
+       "\"EXX=linear 10um\" --noise 0.1um --tool-length 150 --dialect fanuc",
        35, 12},
       {"rotary zx-yac --axis C --direction radial --ball 100,0,100 --length 150 --error EX0C=10um",
        15, 4},
