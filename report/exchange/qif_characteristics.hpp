@@ -21,7 +21,8 @@ namespace frustum::report::qif {
 // By the name of the characteristic.
 using CharacteristicIds = std::map<std::string, int>;
 
-// <Characteristics>, a child of the root, and the datums that it refers to; `device` measures, where one is known.
+// <Characteristics>, a child of the root, and the datums that it refers to; `device` measures,
+// where one is known.
 [[nodiscard]] CharacteristicIds add_characteristics(pugi::xml_node root,
                                                     const metrology::InspectionPlan& plan,
                                                     const metrology::Measurement& measurement,

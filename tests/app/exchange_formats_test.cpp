@@ -122,7 +122,7 @@ TEST_F(ExchangeFormatsSystem, QifPlansGoBothWays) {
   expect_refusal("measure --plan cut.qif --points out/points.csv", {"cut.qif:", "no XML"});
 }
 
-// A document without Frustum's keys evaluates points, says what it does not state, and cannot probe.
+// A document without keys of plans evaluates points, says what it does not state, cannot probe.
 TEST_F(ExchangeFormatsSystem, QifPlansOfOthersEvaluatePointsOnly) {
   write_bore();
   ASSERT_EQ(run("measure --plan bore.plan.toml --export-plan p.qif").exit_code, 0);
@@ -140,12 +140,23 @@ TEST_F(ExchangeFormatsSystem, QifPlansOfOthersEvaluatePointsOnly) {
 
 // The file of the points is named where they lack those of a feature.
 TEST_F(ExchangeFormatsSystem, MissingPointsNameTheirFile) {
-  ASSERT_EQ(run("program cone --machine iwf-bc --out piece").exit_code, 0);
-  write("few.csv", "feature,section,x,y,z\nA,0,1,0,0.75\nA,0,0,1,0.75\nA,0,-1,0,0.75\n");
-  const Outcome few = run("measure --plan piece/cone.plan.toml --points few.csv");
+  write_bore();
+  write("two.plan.toml", read(folder_ / "bore.plan.toml") + R"([[feature]]
+name = "top"
+kind = "plane"
+point = [0, 0, 12]
+axis = [0, 0, 1]
+strategy = { rings = [25], points_per_ring = 8 }
+[[characteristic]]
+name = "top.flatness"
+kind = "flatness"
+feature = "top"
+tolerance = "5 um"
+)");
+  const Outcome few = run("measure --plan two.plan.toml --points p.csv");
   EXPECT_EQ(few.exit_code, 2);
-  EXPECT_EQ(few.err.find("few.csv"), 0U) << few.err;
-  EXPECT_NE(few.err.find("has no points"), std::string::npos) << few.err;
+  EXPECT_EQ(few.err.find("p.csv: error:"), 0U) << few.err;
+  EXPECT_NE(few.err.find("feature 'top' has no points"), std::string::npos) << few.err;
 }
 
 TEST_F(ExchangeFormatsSystem, ToolsAreDrawn) {

@@ -3,8 +3,8 @@
 // Model  : what is missing or wrong is noted, a harmless value is returned, and reading goes on, so
 //          that all mistakes of a document are told at once
 // Units  : lengths come out in mm, angles in rad
-// Errors : a missing element, a value that is no number or not positive, one in a unit of its own, a
-//          reference to nothing or to an element of another kind: with line, column and element
+// Errors : a missing element, a value that is no number or not positive, one in a unit of its own,
+//          a reference to nothing or to an element of another kind: with line, column and element
 // Source : QIF 3.0 (ISO 23952), Primitives.xsd, Units.xsd
 #pragma once
 
