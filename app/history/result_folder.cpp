@@ -282,6 +282,12 @@ Result<ResultFolder> read_results(const fs::path& folder, const std::string& mac
     faults.insert(faults.end(), found->remarks.begin(), found->remarks.end());
     return faults;
   }
+  for (const DatedResult& each : found->results) {
+    if (!each.values.empty() || !each.without_value.empty()) continue;
+    found->remarks.push_back(
+        at_file(each.file, warning("no-values"_id, "has no values that a history follows",
+                                   "take it out of the folder if it is not meant to have some")));
+  }
   std::ranges::stable_sort(found->results, [](const DatedResult& a, const DatedResult& b) {
     return std::tie(a.moment.day, a.state, a.file) < std::tie(b.moment.day, b.state, b.file);
   });

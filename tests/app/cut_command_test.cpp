@@ -55,7 +55,7 @@ TEST_F(CutCommandSystem, ShowsThePartAtAnyMoment) {
   EXPECT_EQ(cut("--point 0,1,-8")["made_by"]["line"], 11);
   EXPECT_FALSE(cut("--point 0,1,-5", 1)["made_by"]["on_surface"].get<bool>());
   EXPECT_EQ(run("cut plate.toml --point 0,1,-8 --quiet").out,
-            "the point was made by line 11, block 5\n");
+            "the point was made by line 11, block 6\n");
   // The rim of the slot is an edge of the blank's own face: the slot has made it.
   EXPECT_EQ(cut("--point 0,5,0")["made_by"]["line"], 7);
 }

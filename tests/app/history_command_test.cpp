@@ -310,6 +310,12 @@ TEST_F(HistorySystem, DamagedResultsAreErrors) {
           {"characteristics: is missing: expected a list"});
   refused(changed("\"date\":null", "\"date\":\"1.2.2026\""),
           {"evidence.date: '1.2.2026' is no date"});
+  // A sound one may have nothing, which is said.
+  json empty = pretty;
+  empty["characteristics"] = json::array();
+  write("r/2026-02-01.json", empty.dump());
+  EXPECT_NE(run("history r").err.find("2026-02-01.json: warning: has no values"),
+            std::string::npos);
   // One that says null was not measured, which is said.
   write("r/2026-02-01.json", changed("\"value\":10.0", "\"value\":null"));
   const Outcome without = run("history r");

@@ -30,12 +30,13 @@ PlayedPath path_of(const std::string& program, const PointBudget& budget = {}) {
   return *std::move(path);
 }
 
+// Never above it, and at it but where the axes speed up or slow down.
 void expect_feed(const PlayedPath& path, double feed, std::size_t least_points) {
   std::size_t count = 0;
   for (const PathPoint& point : path.points) {
     if (point.starts || path.blocks[point.block].kind == kinematics::PathKind::rapid) continue;
-    EXPECT_NEAR(point.feed, feed, 1e-3) << "at " << point.time;
-    ++count;
+    EXPECT_LT(point.feed, feed + 1e-3) << "at " << point.time;
+    if (point.feed > feed - 1e-3) ++count;
   }
   EXPECT_GE(count, least_points);
 }
@@ -52,14 +53,14 @@ std::string fine_circle() {
 }
 
 TEST(PlayedPath, FeedsOfShortMotionsAreAsProgrammed) {
-  expect_feed(path_of(fine_circle()), 500.0, 2000);
+  expect_feed(path_of(fine_circle()), 500.0, 1000);
 }
 
 // What is left out between two points counts with its way, not with its chord.
 TEST(PlayedPath, FeedsOfThinnedPathsAreAsProgrammed) {
   const PlayedPath path = path_of(fine_circle(), {.most = 150});
   EXPECT_GT(path.left_out, 1000U);
-  expect_feed(path, 500.0, 50);
+  expect_feed(path, 500.0, 20);
 }
 
 }  // namespace

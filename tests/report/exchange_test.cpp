@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
+#include "core/program_version.hpp"
 #include "report/exchange/export_file.hpp"
 #include "report/page/html_report.hpp"
 #include "report/terminal_report.hpp"
@@ -79,7 +80,10 @@ TEST(JunitReport, MakesATestOfEachCharacteristic) {
     EXPECT_EQ(node.attribute("failures").as_int(), 1);
     EXPECT_EQ(node.attribute("errors").as_int(), 0);
   }
-  const pugi::xml_node form = suite.first_child();
+  const pugi::xml_node property = suite.child("properties").child("property");
+  EXPECT_STREQ(property.attribute("name").value(), "frustum.version");
+  EXPECT_EQ(property.attribute("value").value(), program_version());
+  const pugi::xml_node form = suite.child("testcase");
   EXPECT_STREQ(form.attribute("name").value(), "cone.form");
   EXPECT_STREQ(form.attribute("classname").value(), "Small part");
   EXPECT_STREQ(form.attribute("time").value(), "0");
@@ -93,7 +97,7 @@ TEST(JunitReport, MakesATestOfEachCharacteristic) {
 TEST(JunitReport, TellsTheInterval) {
   const RunReport report = report_with_intervals();
   const auto document = junit(report, plan_of(report));
-  const pugi::xml_node form = document.child("testsuites").child("testsuite").first_child();
+  const pugi::xml_node form = document.child("testsuites").child("testsuite").child("testcase");
   EXPECT_STREQ(form.child("failure").attribute("message").value(),
                "value 12.346 um, tolerance 10.000, expanded uncertainty 0.40 (95 %), 95 % "
                "interval 11.500 .. 15.250");
@@ -113,7 +117,7 @@ TEST(Exports, NameTheParameterOfAForm) {
   EXPECT_STREQ(junit(report, plan)
                    .child("testsuites")
                    .child("testsuite")
-                   .first_child()
+                   .child("testcase")
                    .child("failure")
                    .attribute("message")
                    .value(),
@@ -171,7 +175,7 @@ TEST(Exports, Fault2_52_NoneClaims95PercentOfWhatIsNotProvenOrNotStated) {
   EXPECT_NE(dfq.find("K2900/1 coverage of the uncertainty: not proven\n"), std::string::npos);
   EXPECT_NE(dfq.find("K2900/2 coverage of the uncertainty: not stated\n"), std::string::npos);
   auto document = junit(report, plan_of(report));
-  const pugi::xml_node form = document.child("testsuites").child("testsuite").first_child();
+  const pugi::xml_node form = document.child("testsuites").child("testsuite").child("testcase");
   EXPECT_STREQ(form.child("failure").attribute("message").value(),
                "value 12.346 um, tolerance 10.000, expanded uncertainty 0.40 (coverage not "
                "proven), interval 11.500 .. 15.250");
@@ -218,7 +222,7 @@ TEST(JunitReport, TellsErrorsFromFailures) {
   auto suite = document.child("testsuites").child("testsuite");
   EXPECT_EQ(suite.attribute("errors").as_int(), 2);
   EXPECT_EQ(suite.attribute("failures").as_int(), 0);
-  EXPECT_TRUE(suite.first_child().child("error"));
+  EXPECT_TRUE(suite.child("testcase").child("error"));
   EXPECT_STREQ(suite.last_child().attribute("name").value(), "run");
   // Nothing measured at all: each planned characteristic says why.
   RunReport failed;
@@ -228,7 +232,7 @@ TEST(JunitReport, TellsErrorsFromFailures) {
   suite = document.child("testsuites").child("testsuite");
   EXPECT_EQ(suite.attribute("tests").as_int(), 2);
   EXPECT_EQ(suite.attribute("errors").as_int(), 2);
-  EXPECT_NE(std::string(suite.first_child().child("error").attribute("message").value())
+  EXPECT_NE(std::string(suite.child("testcase").child("error").attribute("message").value())
                 .find("the plan misses the part"),
             std::string::npos);
 }
