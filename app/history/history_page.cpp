@@ -106,12 +106,12 @@ report::HistoryTable changes_table_of(const History& history, const char* id,
 }
 
 report::HistoryTable sources_table(const History& history, const Wording& words) {
-  report::HistoryTable table{.id = "results",
-                             .heading = words("Results"),
-                             .note = words("Dates are never those of the file system."),
-                             .columns = {words("File"), words("Document"), words("Date"),
-                                         words("Date from"), words("State"), words("State from"),
-                                         words("Without a value")}};
+  report::HistoryTable table{
+      .id = "results",
+      .heading = words("Results"),
+      .note = words("Dates are never those of the file system."),
+      .columns = {words("File"), words("Document"), words("Date"), words("Date from"),
+                  words("State"), words("State from"), words("Without a value")}};
   for (const DatedResult& each : history.folder.results) {
     const bool stated = each.state != MachineState::not_stated;
     table.rows.push_back({each.file.generic_string(), words.word(each.document), each.moment.text,
@@ -146,7 +146,8 @@ std::string history_page(const History& history, const Wording& words) {
                 {words("To"), folder.results.back().moment.text}};
   if (history.options.baseline > 0) {
     page.facts.push_back(
-        {words("Limits of"), words("the first {0} results, or of all where there are fewer", history.options.baseline)});
+        {words("Limits of"), words("the first {0} results, or of all where there are fewer",
+                                   history.options.baseline)});
   }
   if (history.options.since) {
     page.facts.push_back({words("Judged since"), history.options.since->text});

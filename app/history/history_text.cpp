@@ -122,8 +122,8 @@ std::string failure_text(const HistorySeries& series, const HistoryPoint& point,
                   : words(", below the lower control limit {0}", texts.back());
   }
   if (point.beyond_range) {
-    const auto of_range = told_apart({*point.moving_range, series.limits->upper_moving_range},
-                                     series.unit, words);
+    const auto of_range =
+        told_apart({*point.moving_range, series.limits->upper_moving_range}, series.unit, words);
     text += words(", changed by {0}, limit {1}", of_range[0], of_range[1]);
   }
   return text;

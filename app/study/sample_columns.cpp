@@ -35,7 +35,7 @@ Diagnostic not_whole(const fs::path& file) {
 Result<SampleBlock> part_of(const studies::SampleFolder& folder, std::uint64_t part,
                             std::uint64_t samples, const WantedColumn& wanted) {
   const fs::path file = folder.part_file(part);
-  const auto bytes = read_whole_file(file);
+  const auto bytes = read_to_replace(file);  // a study goes on with its samples
   if (!bytes) return bytes.error();
   auto read = studies::decoded(*bytes, file.string(), wanted);
   if (!read) return read.error();

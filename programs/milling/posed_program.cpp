@@ -187,9 +187,15 @@ class PosedProgram {
   }
   [[nodiscard]] std::optional<Diagnostic> beyond_travel() const {
     if (!lowest_) return std::nullopt;
-    std::vector<std::string> all = kinematics::travel_violations(machine_, *lowest_);
-    for (std::string& each : kinematics::travel_violations(machine_, *highest_)) {
-      if (std::ranges::find(all, each) == all.end()) all.push_back(std::move(each));
+    // Of each end of its travel the place that is farthest beyond that one.
+    AxisPositions below = *lowest_, above = *highest_;
+    for (const kinematics::Joint& joint : machine_.joints()) {
+      below[joint.letter] = std::min(below[joint.letter], joint.travel.hi);
+      above[joint.letter] = std::max(above[joint.letter], joint.travel.lo);
+    }
+    std::vector<std::string> all = kinematics::travel_violations(machine_, below);
+    for (std::string& each : kinematics::travel_violations(machine_, above)) {
+      all.push_back(std::move(each));
     }
     return error("axis-over-travel"_id,
                  fmt::format("{} does not fit on machine {}, at its farthest: {}", settings_.piece,

@@ -135,7 +135,10 @@ TEST_F(StudyCommandsSystem, ShipsTheWorkpiecesThatTheProgramWrites) {
     ASSERT_EQ(made.exit_code, 0) << made.err;
     for (const char* file : {"step.nc", "step.plan.toml"}) {
       const std::string shipped = FRUSTUM_SOURCE_DIR "/examples/ibaraki-2010/workpiece-" + number;
-      EXPECT_EQ(read(folder_ / "piece" / file), read(fs::path(shipped) / file)) << number << file;
+      // But for the version in the first line, which those that ship leave out.
+      std::string made_now = read(folder_ / "piece" / file);
+      if (made_now.starts_with("# Made by ")) made_now.erase(0, made_now.find('\n') + 1);
+      EXPECT_EQ(made_now, read(fs::path(shipped) / file)) << number << file;
     }
   }
 }

@@ -179,8 +179,7 @@ TEST(VirtualCmm, ExplainsAPlanThatMissesThePart) {
       to_string(high.error().front()),
       "error: feature 'cone', point 1 at [33.649, 0.000, 26.000]: the plan misses the part: no "
       "surface within 2 mm past the nominal one, it is 15.588 mm past it (hint: check the nominal "
-      "geometry and the "
-      "blank or mesh, or enlarge probe.reach)");
+      "geometry, the setup and the blank or mesh, or enlarge probe.reach)");
   p.features[3].radius = 12.0;
   const auto deep = measure(p, part());
   ASSERT_FALSE(deep);
