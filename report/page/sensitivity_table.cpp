@@ -317,9 +317,8 @@ std::string sensitivity_text(const SensitivityTable& table, int width) {
     if (answers(table.even, k)) of_either_sign.push_back(k);
   }
   if (!of_either_sign.empty()) {
-    out +=
-        "\nBeside that, of either sign, for one unit: the form of a part that was perfect grows "
-        "with any error\n";
+    // The form of a part that was perfect grows with any error.
+    out += "\nBeside that, of either sign\n";
     out += text_blocks(table, table.even, of_either_sign, width);
   }
   if (!silent.empty()) out += fmt::format("\nNo characteristic answers: {}\n", silent);
