@@ -1,6 +1,7 @@
 // A QIF 3.0 document as its readers see it: elements, the unit of length, and where an element is.
 //
-// Model  : elements refer to one another by id; a missing one is told with the place of who asked
+// Model  : elements refer to one another by id; a missing one is reported with the place of who
+//          asked
 // Units  : mm in a unit of the document (FileUnits, metres per unit)
 // Errors : what is no XML, with line and column; no QIFDocument, another version than 3, no unit
 //          of length

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace frustum {
 
@@ -44,6 +45,16 @@ class CommandLine : public testing::Test {
                                 "\n} >'" + out.string() + "' 2>'" + err.string() + "'";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out), read(err)};
+  }
+
+  // The input is wrong, and the message has all of these words.
+  void expect_refusal(const std::string& arguments, const std::vector<std::string>& words) const {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments << outcome.out;
+    for (const std::string& word : words) {
+      EXPECT_NE(outcome.err.find(word), std::string::npos)
+          << "'" << word << "' in: " << outcome.err;
+    }
   }
 
   void replace_in(const std::string& file, const std::string& from, const std::string& to) const {

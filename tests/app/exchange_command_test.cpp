@@ -80,15 +80,6 @@ feature = "tube"
 tolerance = "2 um"
 )");
   }
-
-  void expect_refusal(const std::string& arguments, const std::vector<std::string>& words) const {
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.exit_code, 2) << arguments << outcome.out;
-    for (const std::string& word : words) {
-      EXPECT_NE(outcome.err.find(word), std::string::npos)
-          << "'" << word << "' in: " << outcome.err;
-    }
-  }
 };
 
 TEST_F(ExchangeSystem, FitsAnElementAndSaysAllAboutIt) {

@@ -21,15 +21,6 @@ class ExchangeFormatsSystem : public CommandLine {
     std::ofstream(folder_ / file, std::ios::binary) << text;
   }
 
-  void expect_refusal(const std::string& arguments, const std::vector<std::string>& words) const {
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.exit_code, 2) << arguments << outcome.out;
-    for (const std::string& word : words) {
-      EXPECT_NE(outcome.err.find(word), std::string::npos)
-          << "'" << word << "' in: " << outcome.err;
-    }
-  }
-
   // A bore of three lobes, 1 um, and its plan.
   void write_bore() const {
     write("bore.plan.toml", R"(title = "Bore"

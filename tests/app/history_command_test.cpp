@@ -53,15 +53,6 @@ class HistorySystem : public CommandLine {
     return json::parse(outcome.out, nullptr, false);
   }
 
-  void expect_refusal(const std::string& arguments, const std::vector<std::string>& words) const {
-    const Outcome outcome = run("history " + arguments);
-    EXPECT_EQ(outcome.exit_code, 2) << arguments << outcome.out;
-    for (const std::string& word : words) {
-      EXPECT_NE(outcome.err.find(word), std::string::npos)
-          << "'" << word << "' in: " << outcome.err;
-    }
-  }
-
   static constexpr std::array kDates{"2026-01-01", "2026-01-31", "2026-03-03", "2026-04-02",
                                      "2026-05-01", "2026-06-02", "2026-07-01"};
   static constexpr std::array kValues{10.2, 11.1, 9.7, 10.8, 10.4, 12.9, 10.1};
@@ -241,22 +232,23 @@ tolerance = "5 um"
 
 TEST_F(HistorySystem, RefusesWhatHasNoOrder) {
   write_result("none/result.json", 10.0);
-  expect_refusal("none", {"no date is known of it", "history.toml", "none/result.json"});
+  expect_refusal("history none", {"no date is known of it", "history.toml", "none/result.json"});
   write_result("same/2026-01-01-a.json", 10.0);
   write_result("same/2026-01-01-b.json", 11.0);
-  expect_refusal("same", {"which came first is not known", "time of day", "2026-01-01-b.json"});
+  expect_refusal("history same",
+                 {"which came first is not known", "time of day", "2026-01-01-b.json"});
   write_result("units/2026-01-01.json", 10.0);
   write_result("units/2026-01-02.json", 0.01, "", 0.02, "iwf-bc", "mm");
-  expect_refusal("units", {"in mm here, in um in", "2026-01-02.json"});
+  expect_refusal("history units", {"in mm here, in um in", "2026-01-02.json"});
   write_result("mixed/2026-01-01.json", 10.0);
   write_result("mixed/2026-01-02.json", 10.0, "", 20.0, "zx-yac, other");
-  expect_refusal("mixed", {"2 machines: iwf-bc (1), zx-yac (1)", "--machine iwf-bc"});
-  expect_refusal("mixed --machine none", {"no result of 'none'"});
+  expect_refusal("history mixed", {"2 machines: iwf-bc (1), zx-yac (1)", "--machine iwf-bc"});
+  expect_refusal("history mixed --machine none", {"no result of 'none'"});
   EXPECT_EQ(run("history mixed --machine zx-yac").exit_code, 0);
   fs::create_directories(folder_ / "empty");
-  expect_refusal("empty", {"holds no result"});
-  expect_refusal("same --since May", {"--since May: no date"});
-  expect_refusal("same --baseline 3", {"--baseline 3: too few"});
+  expect_refusal("history empty", {"holds no result"});
+  expect_refusal("history same --since May", {"--since May: no date"});
+  expect_refusal("history same --baseline 3", {"--baseline 3: too few"});
 }
 
 // Every number is the same: no limit is narrower than they are wide.
@@ -283,7 +275,7 @@ TEST_F(HistorySystem, DamagedResultsAreErrors) {
   const std::string sound = read(folder_ / "r/2026-01-01.json");
   const auto refused = [&](const std::string& text, const std::vector<std::string>& words) {
     write("r/2026-02-01.json", text);
-    expect_refusal("r", words);
+    expect_refusal("history r", words);
   };
   const auto changed = [&](const std::string& from, const std::string& to) {
     std::string text = sound;
@@ -326,10 +318,10 @@ TEST_F(HistorySystem, DamagedResultsAreErrors) {
 
 TEST_F(HistorySystem, NamesWhatNamesSayWrong) {
   write_result("r/2026-01-01T2430.json", 10.0);
-  expect_refusal("r", {"'2026-01-01T2430' has no time of day", "00:00 to 23:59"});
+  expect_refusal("history r", {"'2026-01-01T2430' has no time of day", "00:00 to 23:59"});
   fs::remove(folder_ / "r/2026-01-01T2430.json");
   write_result("r/2026-01-01T09001.json", 10.0);
-  expect_refusal("r", {"'2026-01-01T09001' has no time of day"});
+  expect_refusal("history r", {"'2026-01-01T09001' has no time of day"});
   fs::remove(folder_ / "r/2026-01-01T09001.json");
   write_result("r/2026-01-02_As-Found.json", 10.0);
   write_result("r/2026-01-03_AS_LEFT.json", 10.0);
@@ -344,12 +336,12 @@ TEST_F(HistorySystem, NamesWhatNamesSayWrong) {
   EXPECT_EQ(doc["results"][1]["state"], "as-left");
   EXPECT_TRUE(doc["results"][2]["state"].is_null());
   write_result("r/2026-01-05-as-found-as-left.json", 10.0);
-  expect_refusal("r", {"'2026-01-05-as-found-as-left.json' says as-found and as-left"});
+  expect_refusal("history r", {"'2026-01-05-as-found-as-left.json' says as-found and as-left"});
   // Of a file that the index dates, names need say nothing; one result has one date.
   write("r/history.toml",
         "[[result]]\nfile = \"2026-01-02_As-Found.json\"\ndate = \"2026-01-02\"\n"
         "[[result]]\nfile = \"../r/2026-01-02_As-Found.json\"\ndate = \"2026-01-09\"\n");
-  expect_refusal("r", {"history.toml:5", "is listed above already"});
+  expect_refusal("history r", {"history.toml:5", "is listed above already"});
 }
 
 TEST_F(HistorySystem, SaysThatABaselineIsNotReached) {
@@ -387,8 +379,8 @@ TEST_F(HistorySystem, NamesWhatItLeavesOutAndWhatContradicts) {
         "[[result]]\nfile = \"2026-01-09.json\"\ndate = \"2026-01-09\"\n"
         "[[result]]\nfile = \"2026-01-02.json\"\ndate = \"2026-01-02\"\n"
         "[[result]]\nfile = \"2026-01-01.json\"\ndaet = \"2026-13-01\"\n");
-  expect_refusal(
-      "r", {"history.toml:3", "states 2026-01-08", "no values that a history follows", "daet"});
+  expect_refusal("history r", {"history.toml:3", "states 2026-01-08",
+                               "no values that a history follows", "daet"});
 }
 
 }  // namespace

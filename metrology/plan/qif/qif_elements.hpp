@@ -1,7 +1,7 @@
 // Elements of a QIF document as a reader of plans asks for them: by id, and their values.
 //
 // Model  : what is missing or wrong is noted, a harmless value is returned, and reading goes on, so
-//          that all mistakes of a document are told at once
+//          that all mistakes of a document are reported at once
 // Units  : lengths come out in mm, angles in rad
 // Errors : a missing element, a value that is no number or not positive, one in a unit of its own,
 //          a reference to nothing or to an element of another kind: with line, column and element
