@@ -2,23 +2,18 @@
 
 namespace frustum::cutter {
 
-EndFan::EndFan(const SeparatingPlane& plane, std::span<const GroupPair> pairs,
+EndFan::EndFan(const SeparatingPlane& plane, std::span<const GroupQuad> quads,
                std::span<const std::uint32_t> groups)
     : end_(plane.end()) {
   if (!plane.has_proof()) return;
   planes_.reserve(groups.size());
+  QuadPlanes of_quad;
   for (std::size_t i = 0; i < groups.size(); ++i) {
-    const PairPlanes both = plane.planes(pairs[groups[i] / 2]);
-    const auto add = [&](std::size_t half) {
-      planes_.push_back({Vec3(both.normal.x[half], both.normal.y[half], both.normal.z[half]),
-                         both.height[half] - both.lost[half], both.turn[half]});
-    };
-    add(groups[i] % 2);
-    // Its sibling is mostly the next.
-    if (groups[i] % 2 == 0 && i + 1 < groups.size() && groups[i + 1] == groups[i] + 1) {
-      add(1);
-      ++i;
-    }
+    // Its siblings are mostly the next.
+    const std::uint32_t quad = groups[i] / kSiblings, lane = groups[i] % kSiblings;
+    if (i == 0 || groups[i - 1] / kSiblings != quad) of_quad = plane.planes(quads[quad]);
+    planes_.push_back({of_quad.normal_of(lane), of_quad.height[lane] - of_quad.lost[lane],
+                       of_quad.turn[lane]});
   }
 }
 
@@ -35,12 +30,12 @@ const EndFan* EndFans::near_by(const Maker& maker, const SeparatingPlane& plane)
 }
 
 const EndFan* EndFans::of(const Maker& maker, const SeparatingPlane& plane,
-                          std::span<const GroupPair> pairs, std::span<const std::uint32_t> groups) {
+                          std::span<const GroupQuad> quads, std::span<const std::uint32_t> groups) {
   constexpr std::size_t kMost = 32;
   if (const EndFan* nearest = near_by(maker, plane)) return nearest;
   if (all_.size() == kMost) return nullptr;
   if (all_.empty()) all_.reserve(kMost);
-  all_.push_back({maker, EndFan(plane, pairs, groups)});
+  all_.push_back({maker, EndFan(plane, quads, groups)});
   return &all_.back().fan;
 }
 

@@ -28,7 +28,7 @@ class EndFan {
   // Holds nothing back.
   EndFan() = default;
   // `groups` by number in the tree.
-  EndFan(const SeparatingPlane& plane, std::span<const GroupPair> pairs,
+  EndFan(const SeparatingPlane& plane, std::span<const GroupQuad> quads,
          std::span<const std::uint32_t> groups);
 
   // The end of a ray, seen from the end of the fan.
@@ -75,7 +75,7 @@ class EndFans {
   };
   // The nearest, made now where none is near by; null: there are enough of others.
   [[nodiscard]] const EndFan* of(const Maker& maker, const SeparatingPlane& plane,
-                                 std::span<const GroupPair> pairs,
+                                 std::span<const GroupQuad> quads,
                                  std::span<const std::uint32_t> groups);
   // The nearest; null: none is near by.
   [[nodiscard]] const EndFan* near_by(const Maker& maker, const SeparatingPlane& plane) const;

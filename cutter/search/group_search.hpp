@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/container/small_vector.hpp>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -21,7 +22,7 @@
 #include "core/box.hpp"
 #include "core/constants.hpp"
 #include "cutter/search/group_reach.hpp"
-#include "cutter/search/pair_crossing.hpp"
+#include "cutter/search/quad_crossing.hpp"
 #include "cutter/search/ray_search.hpp"
 #include "cutter/sweep/concave_sweep.hpp"
 #include "cutter/sweep/swept_box.hpp"
@@ -36,12 +37,12 @@ struct GroupLimit {
   double hi = kInfinity;
 };
 
-// Of the two groups of a pair.
-using PairLimit = std::array<GroupLimit, 2>;
+// Of the groups of a quad.
+using QuadLimit = std::array<GroupLimit, kSiblings>;
 
 // What promises most comes first. The goal knows what it still wants:
 //   RaySpan span()            where on the ray
-//   PairLimit limit(pair, in_box)  what do the ends found so far, by their planes, leave of the
+//   QuadLimit limit(quad, in_box)  what do the ends found so far, by their planes, leave of the
 //                             groups, which are there on the ray?
 //   double room(segment, from, to)  do they leave nothing of the segment, which is between these
 //                             poses? Not if it is less than 0, the less the more is left
@@ -64,14 +65,13 @@ class GroupSearch {
         sweep_(sweep),
         goal_(goal),
         parts_(sweep.body->parts()),
-        pairs_(sweep.tree.pairs()),
+        quads_(sweep.tree.quads()),
         in_box_(question.ray) {
-    open_.reserve(64);
   }
 
   // What is under one group; the root has number 0.
   void run(std::uint32_t group) {
-    if (pairs_.empty()) return;
+    if (quads_.empty()) return;
     run(std::span(&group, 1));
   }
   void run(std::span<const std::uint32_t> groups) {
@@ -81,8 +81,9 @@ class GroupSearch {
   // these adds nothing to what is covered now.
   template <class IsHeld>
   void run(std::span<const std::uint32_t> groups, const IsHeld& is_held) {
+    Look look;
     for (std::size_t i = 0; i < groups.size(); ++i) {
-      if (!is_held(i)) consider(groups[i] / 2, groups[i] % 2, groups[i] % 2 + 1);
+      if (!is_held(i)) consider(groups[i], look);
     }
     for (Candidate next; take_best(next);) {
       if (goal_.change() == next.change || goal_.wants(next.group, next.counted)) visit(next.group);
@@ -95,7 +96,9 @@ class GroupSearch {
   }
 
   // What the cutter covers where this segment begins.
-  void take_pose(std::uint32_t segment) { take_representative(segment); }
+  void take_pose(std::uint32_t segment) {
+    take_pose(segment, question_.path->segments[segment].first_pose);
+  }
   // What the convex parts cover in this segment, whatever is covered already.
   void solve_parts(std::uint32_t segment) { solve_parts(segment, motion_of(segment)); }
 
@@ -119,34 +122,63 @@ class GroupSearch {
     bool lo_is_end = false, hi_is_end = false;
   };
 
-  // The groups `from` to `to` of a pair.
-  void consider(std::uint32_t pair, std::size_t from, std::size_t to) {
-    const GroupPair& groups = pairs_[pair];
-    const PairSpan in_box = in_box_.within(groups, goal_.span());
-    std::array<bool, 2> wanted{};
-    for (std::size_t half = from; half < to; ++half) {
-      const RaySpan span{in_box.lo[half], in_box.hi[half]};
-      wanted[half] = groups.earliest[half] < question_.first_excluded && span.lo <= span.hi &&
-                     goal_.wants(2 * pair + static_cast<std::uint32_t>(half),
-                                 goal_.counted({span.lo, span.hi}));
+  // What was seen of a quad while nothing more was covered.
+  struct Look {
+    const GroupQuad* groups = nullptr;
+    int change = 0;
+    QuadSpan in_box{};
+    std::optional<QuadLimit> limits{};
+  };
+  // One group: as if it was the only one, whatever of its siblings was looked at before.
+  void consider(std::uint32_t index, Look& look) {
+    const GroupQuad& groups = quads_[index / kSiblings];
+    const std::size_t lane = index % kSiblings;
+    if (look.groups != &groups || look.change != goal_.change())
+      look = {&groups, goal_.change(), in_box_.within(groups, goal_.span()), std::nullopt};
+    if (!is_wanted(groups, index, look.in_box)) return;
+    if (!look.limits) look.limits = goal_.limit(groups, look.in_box);
+    const GroupLimit limit = (*look.limits)[lane];
+    if (!limit.holds) judge(groups, index, limit, {look.in_box.lo[lane], look.in_box.hi[lane]});
+  }
+  // All groups of a quad.
+  void consider(std::uint32_t quad) {
+    const GroupQuad& groups = quads_[quad];
+    const QuadSpan in_box = in_box_.within(groups, goal_.span());
+    std::array<bool, kSiblings> wanted{};
+    bool any = false;
+    for (std::size_t lane = 0; lane < kSiblings; ++lane) {
+      wanted[lane] = is_wanted(groups, number_of(quad, lane), in_box);
+      any = any || wanted[lane];
     }
-    if (!wanted[0] && !wanted[1]) return;
-    const PairLimit limits = goal_.limit(groups, in_box);
-    for (std::size_t half = from; half < to; ++half) {
-      if (!wanted[half] || limits[half].holds) continue;
-      judge(groups, 2 * pair + static_cast<std::uint32_t>(half), limits[half],
-            {in_box.lo[half], in_box.hi[half]});
+    if (!any) return;
+    const QuadLimit limits = goal_.limit(groups, in_box);
+    for (std::size_t lane = 0; lane < kSiblings; ++lane) {
+      if (!wanted[lane] || limits[lane].holds) continue;
+      judge(groups, number_of(quad, lane), limits[lane], {in_box.lo[lane], in_box.hi[lane]});
     }
   }
+  [[nodiscard]] bool is_wanted(const GroupQuad& groups, std::uint32_t index,
+                               const QuadSpan& in_box) {
+    const std::size_t lane = index % kSiblings;
+    const RaySpan span{in_box.lo[lane], in_box.hi[lane]};
+    if (groups.earliest[lane] >= question_.first_excluded || !(span.lo <= span.hi)) return false;
+    if (!goal_.wants(index, goal_.counted({span.lo, span.hi}))) return false;
+    fetch(&question_.path->poses[groups.representative_pose[lane]], 1);
+    return true;
+  }
+  [[nodiscard]] static std::uint32_t number_of(std::uint32_t quad, std::size_t lane) {
+    return kSiblings * quad + static_cast<std::uint32_t>(lane);
+  }
 
-  void judge(const GroupPair& groups, std::uint32_t index, const GroupLimit& limit,
+  void judge(const GroupQuad& groups, std::uint32_t index, const GroupLimit& limit,
              GroupReach reach) {
+    const std::size_t lane = index % kSiblings;
     // Else so far apart that one pose says nothing about the others.
-    if (limit.counts_representative && groups.shift[index % 2] <= sweep_.body->reach()) {
+    if (limit.counts_representative && groups.shift[lane] <= sweep_.body->reach()) {
       if (limit.hi == kInfinity) {
-        reach = reach_by_representative(groups.group(index % 2));
+        reach = reach_by_representative(groups.group(lane));
       } else {
-        take_representative(groups.representative_segment[index % 2]);
+        take_pose(groups.representative_segment[lane], groups.representative_pose[lane]);
       }
     }
     if (limit.hi < reach.hi) {
@@ -158,8 +190,7 @@ class GroupSearch {
     add({goal_.promise(reach), counted, index, goal_.change()});
   }
 
-  // Of the open ones the best is kept apart: mostly it is the next at once. What is under it is
-  // asked for now, since large trees do not fit into the caches.
+  // Of the open ones the best is kept apart: mostly it is the next at once.
   void add(const Candidate& next) {
     fetch_under(next.group);
     if (!has_best_) {
@@ -172,12 +203,24 @@ class GroupSearch {
     std::ranges::push_heap(open_, is_later);
     if (is_better) best_ = next;
   }
+  // Large trees do not fit into the caches: what may be asked next is fetched now.
   void fetch_under(std::uint32_t index) const {
-    const GroupPair& groups = pairs_[index / 2];
-    if (groups.count[index % 2] > 0) return;
-    const auto* bytes = reinterpret_cast<const char*>(&pairs_[groups.next[index % 2]]);
+    const GroupQuad& groups = quads_[index / kSiblings];
+    const std::size_t lane = index % kSiblings;
+    if (groups.count[lane] == 0) {
+      fetch(&quads_[groups.next[lane]], 1);
+      return;
+    }
+    // Mostly the segments of a leaf are in a row.
+    fetch(&sweep_.tree.segments()[groups.next[lane]], 1);
+    fetch(&question_.path->segments[groups.representative_segment[lane]], 1);
+    fetch(&question_.path->poses[groups.representative_pose[lane]], 3);
+  }
+  template <class T>
+  static void fetch(const T* first, std::size_t count) {
     constexpr std::size_t kLine = 64;
-    for (std::size_t k = 0; k < sizeof(GroupPair); k += kLine) __builtin_prefetch(bytes + k);
+    const auto* bytes = reinterpret_cast<const char*>(first);
+    for (std::size_t k = 0; k < count * sizeof(T); k += kLine) __builtin_prefetch(bytes + k);
   }
   bool take_best(Candidate& next) {
     const bool is_in_heap = !open_.empty() && (!has_best_ || is_later(best_, open_.front()));
@@ -192,9 +235,9 @@ class GroupSearch {
   }
 
   // What the parts of the body cover where a segment begins.
-  void take_representative(std::uint32_t segment) {
+  void take_pose(std::uint32_t segment, std::uint32_t at) {
     if (segment >= question_.first_excluded) return;
-    const ToolPose& pose = question_.path->from(question_.path->segments[segment]);
+    const ToolPose& pose = question_.path->poses[at];
     for (std::uint32_t i = 0; i < parts_.size(); ++i) {
       if (const auto chord = parts_[i].chord(pose, question_.ray)) take_chord(*chord, segment, i);
     }
@@ -237,11 +280,11 @@ class GroupSearch {
   }
 
   void visit(std::uint32_t index) {
-    const GroupPair& groups = pairs_[index / 2];
-    const std::uint32_t next = groups.next[index % 2];
-    const std::size_t count = groups.count[index % 2];
+    const GroupQuad& groups = quads_[index / kSiblings];
+    const std::uint32_t next = groups.next[index % kSiblings];
+    const std::size_t count = groups.count[index % kSiblings];
     if (count == 0) {
-      consider(next, 0, 2);
+      consider(next);
       return;
     }
     solve_leaf(index, sweep_.tree.segments().subspan(next, count));
@@ -280,9 +323,8 @@ class GroupSearch {
 
   void solve(std::uint32_t group, std::uint32_t segment) {
     const SegmentMotion motion = motion_of(segment);
-    if constexpr (Goal::kSolvesWhole) {
-      if (is_away(group, motion)) return;
-    }
+    if ((Goal::kSolvesWhole || goal_.change() == 0) && is_away(group, motion)) return;
+    if (!Goal::kSolvesWhole) fetch(&question_.path->blocks[question_.path->segments[segment].block], 1);
     solve_parts(segment, motion);
     const auto sections = sweep_.body->sections();
     if (parts_.size() == sections.size()) return;
@@ -394,12 +436,12 @@ class GroupSearch {
   const ToolSweep& sweep_;
   Goal& goal_;
   std::span<const Profile> parts_;
-  std::span<const GroupPair> pairs_;
-  PairCrossing in_box_;
-  std::vector<Candidate> open_{};  // a heap by promise
+  std::span<const GroupQuad> quads_;
+  QuadCrossing in_box_;
+  boost::container::small_vector<Candidate, 32> open_{};  // a heap by promise
   Candidate best_{};
   bool has_best_ = false;
-  std::vector<SegmentInterval> found_{};
+  FewSegmentIntervals found_{};
   std::vector<Gap> gaps_{}, covered_{};
 };
 

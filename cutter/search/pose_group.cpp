@@ -5,24 +5,25 @@
 
 namespace frustum::cutter {
 
-PoseGroup GroupPair::group(std::size_t which) const {
-  const auto vec = [which](const std::array<FloatPair, 3>& v) {
-    return Vec3(v[0][which], v[1][which], v[2][which]);
+PoseGroup GroupQuad::group(std::size_t lane) const {
+  const auto vec = [lane](const std::array<FloatFour, 3>& v) {
+    return Vec3(v[0][lane], v[1][lane], v[2][lane]);
   };
   PoseGroup group{.box = {vec(box_min), vec(box_max)},
                   .middle = {vec(tip), vec(axis)},
                   .tip_half = vec(tip_half),
                   .axis_half = vec(axis_half),
-                  .axis_shift = axis_shift[which],
-                  .tip_turn = tip_turn[which],
-                  .shift = shift[which],
-                  .representative_segment = representative_segment[which],
-                  .earliest = earliest[which],
-                  .count = count[which]};
+                  .axis_shift = axis_shift[lane],
+                  .tip_turn = tip_turn[lane],
+                  .shift = shift[lane],
+                  .representative_segment = representative_segment[lane],
+                  .representative_pose = representative_pose[lane],
+                  .earliest = earliest[lane],
+                  .count = count[lane]};
   const Vec3 one = vec(first_column), two = vec(second_column);
   group.frame << one, two, one.cross(two);
   (group.count > 0 ? group.first : group.children) =
-      group.count > 0 ? next[which] : 2 * next[which];
+      group.count > 0 ? next[lane] : kSiblings * next[lane];
   return group;
 }
 

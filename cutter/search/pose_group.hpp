@@ -2,7 +2,7 @@
 //
 // Model    : every pose of the group is its middle moved by `frame` times a place within
 //            +-tip_half, its axis turned by `frame` times one within +-axis_half. Groups are stored
-//            in pairs, in single precision: the middle and the frame are what those numbers say,
+//            by four, in single precision: the middle and the frame are what those numbers say,
 //            and the bounds, rounded outward, hold from there
 // Units    : mm, rad; frame: workpiece
 // Errors   : none
@@ -12,11 +12,12 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "core/box.hpp"
 #include "core/pose.hpp"
 #include "cutter/body/profile.hpp"
-#include "cutter/search/both.hpp"
+#include "cutter/search/lanes.hpp"
 #include "kinematics/path/tool_path.hpp"
 
 namespace frustum::cutter {
@@ -33,30 +34,40 @@ struct PoseGroup {
   double shift = 0.0;       // nor any point of the cutter from its place at the representative (mm)
   // One of the segments: where it begins is the group's representative.
   std::uint32_t representative_segment = 0;
+  std::uint32_t representative_pose = 0;  // of the path
   std::uint32_t earliest = 0;  // the first of the segments in program order
   std::uint32_t first = 0;     // a leaf's segments: PoseTree::segments(), first and count
   std::uint32_t count = 0;     // 0: not a leaf
-  std::uint32_t children = 0;  // not of a leaf: the first of two groups, side by side
+  std::uint32_t children = 0;  // not of a leaf: the first of kSiblings groups, side by side
 
   [[nodiscard]] const ToolPose& representative(const kinematics::ToolPath& path) const {
-    return path.from(path.segments[representative_segment]);
+    return path.poses[representative_pose];
   }
 };
 
-// Two groups side by side, as PoseGroup has them but for `frame`, whose third column is the cross
-// product of the others.
-struct alignas(64) GroupPair {
-  std::array<FloatPair, 3> box_min{}, box_max{};
-  std::array<FloatPair, 3> tip{}, axis{};  // of the middle
-  std::array<FloatPair, 3> first_column{}, second_column{};
-  std::array<FloatPair, 3> tip_half{}, axis_half{};
-  FloatPair axis_shift{}, tip_turn{}, shift{};
-  std::array<std::uint32_t, 2> representative_segment{};
-  std::array<std::uint32_t, 2> earliest{};
-  std::array<std::uint32_t, 2> next{};   // of a leaf the first segment, else the pair of children
-  std::array<std::uint16_t, 2> count{};  // 0: not a leaf
+inline constexpr std::uint32_t kSiblings = 4;
 
-  [[nodiscard]] PoseGroup group(std::size_t which) const;
+// Groups side by side, as PoseGroup has them but for `frame`, whose third column is the cross
+// product of the others. Where a place is free, `earliest` is the largest number.
+struct alignas(64) GroupQuad {
+  static constexpr float kFar = std::numeric_limits<float>::infinity();
+  static constexpr FloatFour kBeyond{kFar, kFar, kFar, kFar}, kBefore{-kFar, -kFar, -kFar, -kFar};
+  static constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
+
+  std::array<FloatFour, 3> box_min{kBeyond, kBeyond, kBeyond};
+  std::array<FloatFour, 3> box_max{kBefore, kBefore, kBefore};
+  std::array<FloatFour, 3> tip{}, axis{};  // of the middle
+  std::array<FloatFour, 3> first_column{}, second_column{};
+  std::array<FloatFour, 3> tip_half{}, axis_half{};
+  FloatFour axis_shift{}, tip_turn{}, shift{};
+  std::array<std::uint32_t, 4> representative_segment{}, representative_pose{};
+  std::array<std::uint32_t, 4> earliest{kFree, kFree, kFree, kFree};
+  std::array<std::uint32_t, 4> next{};   // of a leaf the first segment, else the quad of children
+  std::array<std::uint16_t, 4> count{};  // 0: not a leaf
+
+  [[nodiscard]] bool is_free(std::size_t lane) const { return earliest[lane] == kFree; }
+  // Precondition: it is not free.
+  [[nodiscard]] PoseGroup group(std::size_t lane) const;
 };
 
 // Largest value of x.n over all poses of the group, counted from the middle's tip.

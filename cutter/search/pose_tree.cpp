@@ -23,20 +23,24 @@ constexpr std::uint32_t kTask = 4096;
 // So many segments say which way a group extends.
 constexpr std::uint32_t kSampled = 512;
 
-// Pairs under a group of so many segments. Halved again and again they come in two sizes, n and
+// Quads under a group of so many segments. Quartered again and again they come in two sizes, n and
 // n + 1.
-std::uint32_t pairs_under(std::uint32_t count) {
-  std::uint32_t pairs = 0, n = count, of_n = 1, of_more = 0;
-  while (n + (of_more > 0 ? 1 : 0) > kLeaf) {
-    const std::uint32_t split_n = n > kLeaf ? of_n : 0;
-    pairs += split_n + of_more;
-    // Halves of n: n / 2 and n - n / 2; of n + 1 likewise.
-    const bool even = n % 2 == 0;
-    of_n = 2 * split_n - (even ? 0 : split_n) + (even ? of_more : 0);
-    of_more = even ? of_more : split_n + 2 * of_more;
-    n /= 2;
+std::uint32_t quads_under(std::uint32_t count) {
+  // Up to here the quarters are leaves.
+  constexpr std::uint32_t kOneQuad = kSiblings * kLeaf;
+  std::uint32_t quads = 0, n = count, of_n = 1, of_more = 0;
+  while (n > kOneQuad) {
+    quads += of_n + of_more;
+    // Of n, n % 4 quarters have one more; of n + 1 one more of them.
+    const std::uint32_t more = n % kSiblings;
+    const std::uint32_t next_more = more * of_n + (more + 1) * of_more;
+    of_n = kSiblings * (of_n + of_more) - next_more;
+    of_more = next_more;
+    n /= kSiblings;
   }
-  return pairs;
+  // 17: a quarter of five is no leaf.
+  const auto left = [](std::uint32_t k) { return k <= kLeaf ? 0U : k <= kOneQuad ? 1U : 2U; };
+  return quads + of_n * left(n) + of_more * left(n + 1);
 }
 
 // Mean and spread of some vectors.
@@ -82,68 +86,49 @@ Vec3 single(const Vec3& v) { return v.cast<float>().cast<double>(); }
 
 // Where a group is in the tree.
 struct Place {
-  std::uint32_t pair;
-  std::size_t half;
+  std::uint32_t quad;
+  std::size_t lane;
 };
 
 class Builder {
  public:
   Builder(const ToolPath& path, std::vector<std::uint32_t>& order, const Body& body,
-          std::vector<GroupPair>& pairs)
+          std::vector<GroupQuad>& quads)
       : path_(path),
         order_(order),
         extent_{0.0, body.height(), body.max_radius()},
         reach_(body.reach()),
-        pairs_(pairs),
+        quads_(quads),
         keyed_(order.size()) {}
 
-  // Of the segments from `first` on; what is under it goes to the pairs from `free` on.
+  // Of the segments from `first` on; what is under it goes to the quads from `free` on.
   void build(Place place, std::uint32_t first, std::uint32_t count, std::uint32_t free) {
-    Scatter tips, axes;
-    const Vec3 centre = from(first).tip;  // keeps the products small
-    bool turns = false;
-    for (std::uint32_t i = first; i < first + count; i += 1 + count / kSampled) {
-      tips.add(from(i).tip - centre);
-      tips.add(to(i).tip - centre);
-      axes.add(reach_ * from(i).axis);
-      axes.add(reach_ * to(i).axis);
-      turns = turns || from(i).axis != from(first).axis || to(i).axis != from(first).axis;
-    }
-    Eigen::SelfAdjointEigenSolver<Mat3> spread, turning;
-    spread.computeDirect(tips.covariance());
-    describe(place, first, count, spread.eigenvectors());
-    GroupPair& pair = pairs_[place.pair];
+    const Spread spread = spread_of(first, count);
+    describe(place, first, count, spread.directions);
+    GroupQuad& quad = quads_[place.quad];
     if (count <= kLeaf) {
-      pair.next[place.half] = first;
-      pair.count[place.half] = static_cast<std::uint16_t>(count);
+      quad.next[place.lane] = first;
+      quad.count[place.lane] = static_cast<std::uint16_t>(count);
       finish_leaf(place, first, count);
       return;
     }
-    Vec3 direction = spread.eigenvectors().col(2);
-    bool by_place = true;
-    if (turns) {
-      turning.computeDirect(axes.covariance());
-      by_place = spread.eigenvalues()[2] >= turning.eigenvalues()[2];
-      if (!by_place) direction = turning.eigenvectors().col(2);
-    }
-    const std::uint32_t half = count / 2;
-    part(first, count, half, direction, by_place);
-    const std::uint32_t left = free + 1, right = left + pairs_under(half);
-    const auto build_left = [&] { build({free, 0}, first, half, left); };
-    const auto build_right = [&] { build({free, 1}, first + half, count - half, right); };
+    const std::uint32_t half = count / 2, left = free + 1, right = left + quads_in_half(half);
+    part(first, count, half, spread);
+    const auto build_left = [&] { build_half({free, 0}, first, half, left); };
+    const auto build_right = [&] { build_half({free, 2}, first + half, count - half, right); };
     if (count > kTask) {
       tbb::parallel_invoke(build_left, build_right);
     } else {
       build_left();
       build_right();
     }
-    const GroupPair& children = pairs_[free];
+    const GroupQuad& children = quads_[free];
     for (std::size_t k = 0; k < 3; ++k) {
-      pair.box_min[k][place.half] = std::min(children.box_min[k][0], children.box_min[k][1]);
-      pair.box_max[k][place.half] = std::max(children.box_max[k][0], children.box_max[k][1]);
+      quad.box_min[k][place.lane] = *std::ranges::min_element(children.box_min[k]);
+      quad.box_max[k][place.lane] = *std::ranges::max_element(children.box_max[k]);
     }
-    pair.earliest[place.half] = std::min(children.earliest[0], children.earliest[1]);
-    pair.next[place.half] = free;
+    quad.earliest[place.lane] = *std::ranges::min_element(children.earliest);
+    quad.next[place.lane] = free;
   }
 
  private:
@@ -162,12 +147,55 @@ class Builder {
     return path_.to(path_.segments[order_[i]]);
   }
 
-  // Those that are farther back along the direction come first.
-  void part(std::uint32_t first, std::uint32_t count, std::uint32_t half, const Vec3& direction,
-            bool by_place) {
+  // Half of a group: one sibling if it is a leaf, else two.
+  void build_half(Place place, std::uint32_t first, std::uint32_t count, std::uint32_t free) {
+    if (count <= kLeaf) {
+      build(place, first, count, free);
+      return;
+    }
+    const std::uint32_t half = count / 2;
+    part(first, count, half, spread_of(first, count));
+    build(place, first, half, free);
+    build({place.quad, place.lane + 1}, first + half, count - half, free + quads_under(half));
+  }
+  [[nodiscard]] static std::uint32_t quads_in_half(std::uint32_t count) {
+    return count <= kLeaf ? 0 : quads_under(count / 2) + quads_under(count - count / 2);
+  }
+
+  // Which way some segments extend, the least first, and which way they are halved.
+  struct Spread {
+    Mat3 directions = Mat3::Identity();
+    Vec3 along = Vec3::Zero();
+    bool by_place = true;
+  };
+  [[nodiscard]] Spread spread_of(std::uint32_t first, std::uint32_t count) const {
+    Scatter tips, axes;
+    const Vec3 centre = from(first).tip;  // keeps the products small
+    bool turns = false;
+    for (std::uint32_t i = first; i < first + count; i += 1 + count / kSampled) {
+      tips.add(from(i).tip - centre);
+      tips.add(to(i).tip - centre);
+      axes.add(reach_ * from(i).axis);
+      axes.add(reach_ * to(i).axis);
+      turns = turns || from(i).axis != from(first).axis || to(i).axis != from(first).axis;
+    }
+    Eigen::SelfAdjointEigenSolver<Mat3> places, turning;
+    places.computeDirect(tips.covariance());
+    Spread spread{places.eigenvectors(), places.eigenvectors().col(2)};
+    if (turns) {
+      turning.computeDirect(axes.covariance());
+      spread.by_place = places.eigenvalues()[2] >= turning.eigenvalues()[2];
+      if (!spread.by_place) spread.along = turning.eigenvectors().col(2);
+    }
+    return spread;
+  }
+
+  // Those that are farther back come first.
+  void part(std::uint32_t first, std::uint32_t count, std::uint32_t half, const Spread& spread) {
+    const Vec3& direction = spread.along;
     for (std::uint32_t i = first; i < first + count; ++i) {
-      keyed_[i] = {by_place ? direction.dot(from(i).tip + to(i).tip)
-                            : direction.dot(from(i).axis + to(i).axis),
+      keyed_[i] = {spread.by_place ? direction.dot(from(i).tip + to(i).tip)
+                                   : direction.dot(from(i).axis + to(i).axis),
                    order_[i]};
     }
     const auto begin = keyed_.begin() + first;
@@ -176,17 +204,17 @@ class Builder {
   }
 
   void finish_leaf(Place place, std::uint32_t first, std::uint32_t count) {
-    GroupPair& pair = pairs_[place.pair];
+    GroupQuad& quad = quads_[place.quad];
     std::uint32_t earliest = order_[first];
     Box box = box_of(first);
     for (std::uint32_t i = first + 1; i < first + count; ++i) {
       earliest = std::min(earliest, order_[i]);
       box = united(box, box_of(i));
     }
-    pair.earliest[place.half] = earliest;
+    quad.earliest[place.lane] = earliest;
     for (int k = 0; k < 3; ++k) {
-      pair.box_min[static_cast<std::size_t>(k)][place.half] = below(box.min[k]);
-      pair.box_max[static_cast<std::size_t>(k)][place.half] = above(box.max[k]);
+      quad.box_min[static_cast<std::size_t>(k)][place.lane] = below(box.min[k]);
+      quad.box_max[static_cast<std::size_t>(k)][place.lane] = above(box.max[k]);
     }
   }
   [[nodiscard]] Box box_of(std::uint32_t i) const {
@@ -249,32 +277,33 @@ class Builder {
     const double tip_shift = std::sqrt(tip_shift2) + tip_rounding;
     const double axis_shift = one_axis ? 0.0 : std::sqrt(axis_shift2) + sagitta + kAxisRounding;
     const ToolPose& at = from(representative);
-    GroupPair& pair = pairs_[place.pair];
-    const std::size_t half = place.half;
+    GroupQuad& quad = quads_[place.quad];
+    const std::size_t lane = place.lane;
     for (int k = 0; k < 3; ++k) {
       const auto d = static_cast<std::size_t>(k);
-      pair.tip[d][half] = static_cast<float>(middle.tip[k]);
-      pair.axis[d][half] = static_cast<float>(middle.axis[k]);
-      pair.first_column[d][half] = static_cast<float>(frame(k, 0));
-      pair.second_column[d][half] = static_cast<float>(frame(k, 1));
-      pair.tip_half[d][half] = above(tip_half[k] + tip_rounding);
-      pair.axis_half[d][half] =
+      quad.tip[d][lane] = static_cast<float>(middle.tip[k]);
+      quad.axis[d][lane] = static_cast<float>(middle.axis[k]);
+      quad.first_column[d][lane] = static_cast<float>(frame(k, 0));
+      quad.second_column[d][lane] = static_cast<float>(frame(k, 1));
+      quad.tip_half[d][lane] = above(tip_half[k] + tip_rounding);
+      quad.axis_half[d][lane] =
           one_axis ? 0.0F : above(axis_half[k] + 1.001 * sagitta + kAxisRounding);
     }
-    pair.axis_shift[half] = above(axis_shift);
-    pair.tip_turn[half] = one_axis ? 0.0F
+    quad.axis_shift[lane] = above(axis_shift);
+    quad.tip_turn[lane] = one_axis ? 0.0F
                                    : above(std::sqrt(tip_turn2) + tip_rounding * axis_shift +
                                            tip_shift * (1.001 * sagitta + kAxisRounding));
-    pair.shift[half] = above(tip_shift + (at.tip - middle.tip).norm() +
+    quad.shift[lane] = above(tip_shift + (at.tip - middle.tip).norm() +
                              reach_ * (axis_shift + (at.axis - middle.axis).norm()));
-    pair.representative_segment[half] = order_[representative];
+    quad.representative_segment[lane] = order_[representative];
+    quad.representative_pose[lane] = path_.segments[order_[representative]].first_pose;
   }
 
   const ToolPath& path_;
   std::vector<std::uint32_t>& order_;
   AxialExtent extent_;
   double reach_;
-  std::vector<GroupPair>& pairs_;
+  std::vector<GroupQuad>& quads_;
   std::vector<Keyed> keyed_;
 };
 
@@ -284,9 +313,8 @@ PoseTree::PoseTree(const ToolPath& path, std::vector<std::uint32_t> segments, co
     : segments_(std::move(segments)) {
   if (segments_.empty()) return;
   const auto count = static_cast<std::uint32_t>(segments_.size());
-  pairs_.resize(1 + pairs_under(count));
-  pairs_.front().earliest[1] = std::numeric_limits<std::uint32_t>::max();
-  Builder(path, segments_, body, pairs_).build({0, 0}, 0, count, 1);
+  quads_.resize(1 + quads_under(count));
+  Builder(path, segments_, body, quads_).build({0, 0}, 0, count, 1);
 }
 
 }  // namespace frustum::cutter

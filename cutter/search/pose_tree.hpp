@@ -7,7 +7,8 @@
 //            along a surface is flat, so that the bound is tight: far tighter than a box of the
 //            swept volume, which overlaps all its neighbours
 // Units    : mm; frame: workpiece
-// Shape    : a binary tree, siblings side by side, two to four segments a leaf; 70 bytes a segment
+// Shape    : each group is halved, and the halves again: four siblings side by side, two to four
+//            segments a leaf; 60 bytes a segment
 // Errors   : none
 // Accuracy : bounds hold within rounding (1e-12 mm)
 // Threads  : built on all cores; the same bits for any number of them
@@ -30,18 +31,21 @@ class PoseTree {
   // Over `segments` of the path, which the body moves through.
   PoseTree(const kinematics::ToolPath& path, std::vector<std::uint32_t> segments, const Body& body);
 
-  // Group i is half i % 2 of pair i / 2. The first is the root, which has no sibling: what stands
-  // in its place is of no segment, and `earliest` says so (the largest number). Empty without
+  // Group i is lane i % 4 of quad i / 4. The first is the root, which has no siblings. Empty without
   // segments.
-  [[nodiscard]] std::span<const GroupPair> pairs() const { return pairs_; }
-  [[nodiscard]] PoseGroup group(std::uint32_t index) const {
-    return pairs_[index / 2].group(index % 2);
+  [[nodiscard]] std::span<const GroupQuad> quads() const { return quads_; }
+  [[nodiscard]] bool is_free(std::uint32_t index) const {
+    return quads_[index / kSiblings].is_free(index % kSiblings);
   }
-  [[nodiscard]] bool empty() const { return pairs_.empty(); }
+  // Precondition: its place is not free.
+  [[nodiscard]] PoseGroup group(std::uint32_t index) const {
+    return quads_[index / kSiblings].group(index % kSiblings);
+  }
+  [[nodiscard]] bool empty() const { return quads_.empty(); }
   [[nodiscard]] std::span<const std::uint32_t> segments() const { return segments_; }
 
  private:
-  std::vector<GroupPair> pairs_{};
+  std::vector<GroupQuad> quads_{};
   std::vector<std::uint32_t> segments_;
 };
 

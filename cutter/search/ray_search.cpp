@@ -55,17 +55,18 @@ class WholeSweptInterval {
     return wants(group, {lo, hi});
   }
 
-  [[nodiscard]] PairLimit limit(const GroupPair& groups, const PairSpan&) {
+  [[nodiscard]] QuadLimit limit(const GroupQuad& groups, const QuadSpan&) {
     const Held held = between([&](const SeparatingPlane& end) {
-      const Both most = end.overreach(groups).most;
-      return Held{most[0] <= 0.0, most[1] <= 0.0};
+      const DoubleFour most = end.overreach(groups).most;
+      return Held{most[0] <= 0.0, most[1] <= 0.0, most[2] <= 0.0, most[3] <= 0.0};
     });
-    return {GroupLimit{.holds = held[0]}, GroupLimit{.holds = held[1]}};
+    return {GroupLimit{.holds = held[0]}, GroupLimit{.holds = held[1]},
+            GroupLimit{.holds = held[2]}, GroupLimit{.holds = held[3]}};
   }
   [[nodiscard]] double room(std::uint32_t, const ToolPose& from, const ToolPose& to) {
     const bool held = between([&](const SeparatingPlane& end) {
       const bool by = end.holds(from, to);
-      return Held{by, by};
+      return Held{by, by, by, by};
     })[0];
     return held ? 0.0 : -1.0;
   }
@@ -108,24 +109,27 @@ class WholeSweptInterval {
     SweptInterval interval{};
     std::optional<SeparatingPlane> lo{}, hi{};  // made when first asked for
   };
-  // Whether each of two is between the ends of one interval, both of which hold it back.
-  using Held = std::array<bool, 2>;
+  // Whether each of four is between the ends of one interval, both of which hold it back.
+  using Held = std::array<bool, kSiblings>;
+  [[nodiscard]] static bool any(const Held& held) {
+    return held[0] || held[1] || held[2] || held[3];
+  }
   template <class HeldBy>
   [[nodiscard]] Held between(const HeldBy& held_by) {
     Held all{};
     for (BoundedInterval& c : swept_) {
-      Held by{true, true};
+      Held by{true, true, true, true};
       if (c.interval.hi.s < span_.hi) {
         if (!c.hi) c.hi = planes_.at(c.interval.hi, true);
         by = held_by(*c.hi);
       }
-      if ((by[0] || by[1]) && c.interval.lo.s > span_.lo) {
+      if (any(by) && c.interval.lo.s > span_.lo) {
         if (!c.lo) c.lo = planes_.at(c.interval.lo, false);
         const Held by_lo = held_by(*c.lo);
-        by = {by[0] && by_lo[0], by[1] && by_lo[1]};
+        for (std::size_t k = 0; k < kSiblings; ++k) by[k] = by[k] && by_lo[k];
       }
-      all = {all[0] || by[0], all[1] || by[1]};
-      if (all[0] && all[1]) break;
+      for (std::size_t k = 0; k < kSiblings; ++k) all[k] = all[k] || by[k];
+      if (all[0] && all[1] && all[2] && all[3]) break;
     }
     return all;
   }
@@ -165,15 +169,15 @@ class Front {
   }
 
   // Whatever a group covers before the front does not matter.
-  [[nodiscard]] PairLimit limit(const GroupPair& groups, const PairSpan&) {
+  [[nodiscard]] QuadLimit limit(const GroupQuad& groups, const QuadSpan&) {
     if (change_ == 0) return {};
     const Overreach over = plane().overreach(groups);
-    const auto of = [&](std::size_t half) {
-      return GroupLimit{over.most[half] <= 0.0,
-                        over.height[half] < 0.0 || over.most[half] == kInfinity,
-                        front_.s + over.most[half]};
+    const auto of = [&](std::size_t lane) {
+      return GroupLimit{over.most[lane] <= 0.0,
+                        over.height[lane] < 0.0 || over.most[lane] == kInfinity,
+                        front_.s + over.most[lane]};
     };
-    return {of(0), of(1)};
+    return {of(0), of(1), of(2), of(3)};
   }
   [[nodiscard]] double room(std::uint32_t segment, const ToolPose& from, const ToolPose& to) {
     if (change_ == 0) return -kInfinity;
@@ -265,7 +269,7 @@ class FrontFans {
             EndFans* fans)
       : goal_(goal), fans_(fans) {
     if (fans_ == nullptr || !goal_.moved()) return;
-    look(fans_->of(maker(), goal_.plane(), sweep.tree.pairs(), groups));
+    look(fans_->of(maker(), goal_.plane(), sweep.tree.quads(), groups));
   }
 
   [[nodiscard]] bool hold(std::size_t i) {

@@ -257,7 +257,7 @@ class TileSearch {
     const auto fan_at = [&](const SweptIntervalEnd& end, bool leaving) {
       const bool within = leaving ? end.s < question.span.hi : end.s > question.span.lo;
       if (!within || body_of(end.segment) != sweep_.body) return EndFan();
-      return EndFan(planes.at(end, leaving), sweep_.tree.pairs(), groups);
+      return EndFan(planes.at(end, leaving), sweep_.tree.quads(), groups);
     };
     std::vector<CoverFan> fans;
     for (const SweptInterval& c : swept_[r])
@@ -373,38 +373,40 @@ class TileSearch {
     return away > 1e-3 && apart(radial / away);
   }
 
-  [[nodiscard]] bool is_out_of_reach(const RayTile& tile, const GroupPair& groups,
-                                     std::size_t half) const {
-    if (groups.earliest[half] >= question_.first_excluded) return true;
+  [[nodiscard]] bool is_out_of_reach(const RayTile& tile, const GroupQuad& groups,
+                                     std::size_t lane) const {
+    if (groups.earliest[lane] >= question_.first_excluded) return true;
     for (std::size_t d = 0; d < 3; ++d) {
       const auto k = static_cast<Eigen::Index>(d);
-      if (groups.box_min[d][half] > tile.box.max[k] || groups.box_max[d][half] < tile.box.min[k]) {
+      if (groups.box_min[d][lane] > tile.box.max[k] || groups.box_max[d][lane] < tile.box.min[k]) {
         return true;
       }
     }
     return false;
   }
 
-  // Of the groups `from` to `to` of a pair.
-  [[nodiscard]] std::array<Verdict, 2> judge(const RayTile& tile, const GroupPair& groups,
-                                             std::size_t from, std::size_t to) const {
-    std::array<Verdict, 2> verdicts{Verdict::aside, Verdict::aside};
-    for (std::size_t half = from; half < to; ++half) {
-      if (!is_out_of_reach(tile, groups, half)) verdicts[half] = Verdict::open;
+  // Of the groups `from` to `to` of a quad.
+  using Verdicts = std::array<Verdict, kSiblings>;
+  [[nodiscard]] Verdicts judge(const RayTile& tile, const GroupQuad& groups, std::size_t from,
+                               std::size_t to) const {
+    Verdicts verdicts{Verdict::aside, Verdict::aside, Verdict::aside, Verdict::aside};
+    for (std::size_t lane = from; lane < to; ++lane) {
+      if (!is_out_of_reach(tile, groups, lane)) verdicts[lane] = Verdict::open;
     }
     for (const TileCover& c : covers_) {
-      if (verdicts[0] == Verdict::aside && verdicts[1] == Verdict::aside) return verdicts;
-      const Both lo = c.lo.is_beyond ? both(kInfinity) : c.lo.behind(groups);
-      const Both hi = c.hi.is_beyond ? both(kInfinity) : c.hi.behind(groups);
-      const Both least = smaller(lo, hi);
-      for (std::size_t half = 0; half < 2; ++half) {
-        if (verdicts[half] == Verdict::aside || !(least[half] >= -kSurely)) continue;
-        verdicts[half] = least[half] >= kFanMargin ? Verdict::aside : Verdict::level;
+      if (std::ranges::all_of(verdicts, [](Verdict v) { return v == Verdict::aside; }))
+        return verdicts;
+      const DoubleFour lo = c.lo.is_beyond ? four_of(kInfinity) : c.lo.behind(groups);
+      const DoubleFour hi = c.hi.is_beyond ? four_of(kInfinity) : c.hi.behind(groups);
+      for (std::size_t lane = 0; lane < kSiblings; ++lane) {
+        const double least = std::min(lo[lane], hi[lane]);
+        if (verdicts[lane] == Verdict::aside || !(least >= -kSurely)) continue;
+        verdicts[lane] = least >= kFanMargin ? Verdict::aside : Verdict::level;
       }
     }
-    for (std::size_t half = 0; half < 2; ++half) {
-      if (verdicts[half] != Verdict::aside && is_beside(tile, groups.group(half)))
-        verdicts[half] = Verdict::aside;
+    for (std::size_t lane = 0; lane < kSiblings; ++lane) {
+      if (verdicts[lane] != Verdict::aside && is_beside(tile, groups.group(lane)))
+        verdicts[lane] = Verdict::aside;
     }
     return verdicts;
   }
@@ -412,30 +414,33 @@ class TileSearch {
   // Appends to lists_ what of it between first and last the tile leaves open. Groups that are much
   // larger than the tile are divided.
   void filter(const RayTile& tile, std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k)
-      sift(tile, lists_[k] / 2, lists_[k] % 2, lists_[k] % 2 + 1);
+    for (std::size_t k = first; k < last; ++k) {
+      const std::size_t lane = lists_[k] % kSiblings;
+      sift(tile, lists_[k] / kSiblings, lane, lane + 1);
+    }
     covers_.clear();
   }
-  // The groups `from` to `to` of a pair; false if nothing of them was left aside.
-  bool sift(const RayTile& tile, std::uint32_t pair, std::size_t from, std::size_t to) {
-    const GroupPair& groups = sweep_.tree.pairs()[pair];
-    const std::array<Verdict, 2> verdicts = judge(tile, groups, from, to);
+  // The groups `from` to `to` of a quad; false if nothing of them was left aside.
+  bool sift(const RayTile& tile, std::uint32_t quad, std::size_t from, std::size_t to) {
+    const GroupQuad& groups = sweep_.tree.quads()[quad];
+    const Verdicts verdicts = judge(tile, groups, from, to);
     bool any_aside = false;
-    for (std::size_t half = from; half < to; ++half) {
-      const bool left =
-          verdicts[half] == Verdict::aside ||
-          keep(tile, 2 * pair + static_cast<std::uint32_t>(half), verdicts[half] == Verdict::open);
+    for (std::size_t lane = from; lane < to; ++lane) {
+      if (groups.is_free(lane)) continue;
+      const bool left = verdicts[lane] == Verdict::aside ||
+                        keep(tile, kSiblings * quad + static_cast<std::uint32_t>(lane),
+                             verdicts[lane] == Verdict::open);
       any_aside = any_aside || left;
     }
     return any_aside;
   }
   // False if nothing of it was left aside: then it stays whole.
   bool keep(const RayTile& tile, std::uint32_t index, bool divides) {
-    const GroupPair& groups = sweep_.tree.pairs()[index / 2];
-    const std::size_t before = lists_.size();
+    const GroupQuad& groups = sweep_.tree.quads()[index / kSiblings];
+    const std::size_t lane = index % kSiblings, before = lists_.size();
     const double fine = covers_.empty() ? kCoarse : kFine;
-    if (divides && groups.count[index % 2] == 0 && groups.shift[index % 2] > fine * tile.size) {
-      if (sift(tile, groups.next[index % 2], 0, 2) || fans_follow_) return true;
+    if (divides && groups.count[lane] == 0 && groups.shift[lane] > fine * tile.size) {
+      if (sift(tile, groups.next[lane], 0, kSiblings) || fans_follow_) return true;
       lists_.resize(before);
     }
     lists_.push_back(index);

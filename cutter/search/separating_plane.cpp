@@ -107,141 +107,224 @@ double SeparatingPlane::support(double lateral, double axial) const {
   return most;
 }
 
-SeparatingPlane::Planes SeparatingPlane::touching(const BothVec& m, const BothVec& axis) const {
-  Planes at;
-  const BothVec turned = m.cross(axis);
-  const Both rho = square_root(turned.dot(turned));
-  const Both z = m.dot(axis);
-  at.across = (rho > kOnAxis ? 1.0 / rho : both(0.0)) * turned;
-  Both offset = both(offset_);
-  at.axial = both(axial_);
-  at.lateral = both(lateral_);
-  if (is_round_) {
-    const Both beside =
-        round_.major < 0.0 ? rho - round_.major : larger(rho - round_.major, both(0.0));
-    const Both above = z - round_.centre;
-    const Both length = square_root(beside * beside + above * above);
-    // Towards the end; where the ray would come back to that plane, as much the other way.
-    const Both up = axis.dot(both(beyond_));
-    const Both out = (rho > kOnAxis ? 1.0 / rho : both(0.0)) * (m.dot(both(beyond_)) - z * up);
-    const Both along = smaller(beside * out + above * up, both(0.0));
-    const Both steep = out * out + up * up;
-    const Both back = steep > kOnAxis ? 2.0 * along / steep : both(0.0);
-    const Both wanted = (above - back * up) / length;
-    at.axial = larger(smaller(wanted, both(most_axial_)), both(least_axial_));
-    at.lateral = square_root(larger(1.0 - at.axial * at.axial, both(0.0)));
-    offset = at.lateral * round_.major + at.axial * round_.centre + round_.radius;
-    // A plane that touches a convex body where the round face is has all of the body on one side.
-    if (!body_->is_convex()) {
-      offset = Both{support(at.lateral[0], at.axial[0]), support(at.lateral[1], at.axial[1])};
+// Of two cutters, or of groups side by side.
+template <class Lanes>
+struct SeparatingPlane::OfLanes {
+  using LaneVec = LanesVec<Lanes>;
+
+  FRUSTUM_OF_LANES static Lanes all(double x) { return lanes_of<Lanes>(x); }
+  FRUSTUM_OF_LANES static LaneVec all(const Vec3& v) { return vec_of<Lanes>(v); }
+
+  // The planes towards the end, which is at `m` from the tips.
+  struct Planes {
+    Lanes axial, lateral;
+    LaneVec across;  // unit vectors across the meridians
+    LaneVec normal;
+    Lanes height;  // of the end above the plane
+  };
+  FRUSTUM_OF_LANES static Planes touching(const SeparatingPlane& plane, const LaneVec& m,
+                                          const LaneVec& axis) {
+    Planes at;
+    const LaneVec turned = m.cross(axis);
+    const Lanes rho = square_root(turned.dot(turned));
+    const Lanes z = m.dot(axis);
+    const Lanes per_rho = rho > kOnAxis ? 1.0 / rho : all(0.0);
+    at.across = per_rho * turned;
+    Lanes offset = all(plane.offset_);
+    at.axial = all(plane.axial_);
+    at.lateral = all(plane.lateral_);
+    if (plane.is_round_) {
+      const Zone& round = plane.round_;
+      const Lanes above = z - round.centre, beside = beside_circle(round, rho);
+      const Lanes length = square_root(beside * beside + above * above);
+      // Towards the end; where the ray would come back to that plane, as much the other way.
+      const LaneVec beyond = all(plane.beyond_);
+      const Lanes up = axis.dot(beyond);
+      const Lanes out = per_rho * (m.dot(beyond) - z * up);
+      const Lanes along = smaller(beside * out + above * up, all(0.0));
+      const Lanes steep = out * out + up * up;
+      const Lanes back = steep > kOnAxis ? 2.0 * along / steep : all(0.0);
+      const Lanes wanted = (above - back * up) / length;
+      at.axial = larger(smaller(wanted, all(plane.most_axial_)), all(plane.least_axial_));
+      at.lateral = square_root(larger(1.0 - at.axial * at.axial, all(0.0)));
+      offset = at.lateral * round.major + at.axial * round.centre + round.radius;
+      // A plane that touches a convex body where the round face is has all of the body on one side.
+      if (!plane.body_->is_convex()) {
+        for (std::size_t k = 0; k < kLanes<Lanes>; ++k)
+          offset[k] = plane.support(at.lateral[k], at.axial[k]);
+      }
     }
+    at.normal = at.lateral * axis.cross(at.across) + at.axial * axis;
+    at.height = at.lateral * rho + at.axial * z - offset;
+    return at;
   }
-  at.normal = at.lateral * axis.cross(at.across) + at.axial * axis;
-  at.height = at.lateral * rho + at.axial * z - offset;
-  return at;
-}
 
-BothVec SeparatingPlane::way_to_end(const BothVec& m, const BothVec& axis) const {
-  const Both z = m.dot(axis);
-  const BothVec across = m - z * axis;
-  if (!is_round_) return across;
-  const BothVec up = (z - round_.centre) * axis;
-  if (round_.major == 0.0) return across + up;
-  const Both rho = larger(square_root(across.dot(across)), both(kOnAxis));
-  const Both beside =
-      round_.major < 0.0 ? rho - round_.major : larger(rho - round_.major, both(0.0));
-  return (beside / rho) * across + up;
-}
-
-Both SeparatingPlane::height_about(const BothVec& m, const BothVec& axis) const {
-  const Both z = m.dot(axis);
-  const BothVec across = m - z * axis;
-  const Both rho = square_root(across.dot(across));
-  if (!is_round_) return lateral_ * rho + axial_ * z - offset_;
-  const Both beside =
-      round_.major < 0.0 ? rho - round_.major : larger(rho - round_.major, both(0.0));
-  const Both above = z - round_.centre;
-  return square_root(beside * beside + above * above) - round_.radius;
-}
-
-PairPlanes SeparatingPlane::planes(const GroupPair& groups) const {
-  const BothVec axis = both(groups.axis);
-  const BothVec one = both(groups.first_column), two = both(groups.second_column);
-  const BothVec three = one.cross(two);
-  const Both half_1 = both(groups.tip_half[0]), half_2 = both(groups.tip_half[1]),
-             half_3 = both(groups.tip_half[2]);
-  const Both turn = both(groups.axis_shift);
-  BothVec m = both(end_) - both(groups.tip);
-  const Both in_the_middle = height_about(m, axis);
-  // From the middle to the place in the box that is nearest to touching the end there.
-  Both c_1 = both(0.0), c_2 = both(0.0), c_3 = both(0.0), went = both(0.0);
-  if (is_round_ || lateral_ > 0.0) {
-    const BothVec way = way_to_end(m, axis);
-    const auto within = [](Both x, Both half) { return larger(smaller(x, half), -half); };
-    c_1 = within(way.dot(one), half_1);
-    c_2 = within(way.dot(two), half_2);
-    c_3 = within(way.dot(three), half_3);
-    m = m - (c_1 * one + c_2 * two + c_3 * three);
-    went = magnitude(c_1) + magnitude(c_2) + magnitude(c_3);
+  FRUSTUM_OF_LANES static Lanes beside_circle(const Zone& round, Lanes rho) {
+    const Lanes beside = rho - round.major;
+    return round.major < 0.0 ? beside : larger(beside, all(0.0));
   }
-  const Planes at = touching(m, axis);
-  const Both n_1 = at.normal.dot(one), n_2 = at.normal.dot(two), n_3 = at.normal.dot(three);
-  Both lost = magnitude(n_1) * half_1 - n_1 * c_1 + magnitude(n_2) * half_2 - n_2 * c_2 +
-              magnitude(n_3) * half_3 - n_3 * c_3;
-  if (turn[0] > 0.0 || turn[1] > 0.0) {
-    const BothVec by_axis = at.lateral * at.across.cross(m) + at.axial * m;
-    constexpr double kColumns = 1.000001;  // of the frame are units within 1e-7
-    lost = lost + magnitude(by_axis.dot(one)) * both(groups.axis_half[0]) +
-           magnitude(by_axis.dot(two)) * both(groups.axis_half[1]) +
-           magnitude(by_axis.dot(three)) * both(groups.axis_half[2]) + both(groups.tip_turn) +
-           kColumns * went * turn;
+
+  // From the tip to where it is nearest to the end, as if it could go anywhere.
+  FRUSTUM_OF_LANES static LaneVec way_to_end(const SeparatingPlane& plane, const LaneVec& m,
+                                             const LaneVec& axis) {
+    const Lanes z = m.dot(axis);
+    const LaneVec across = m - z * axis;
+    if (!plane.is_round_) return across;
+    const LaneVec up = (z - plane.round_.centre) * axis;
+    if (plane.round_.major == 0.0) return across + up;
+    const Lanes rho = larger(square_root(across.dot(across)), all(kOnAxis));
+    return (beside_circle(plane.round_, rho) / rho) * across + up;
   }
-  return {at.normal, at.height, lost, turn, in_the_middle};
+
+  // Of the end above the plane of a cutter, about.
+  FRUSTUM_OF_LANES static Lanes height_about(const SeparatingPlane& plane, const LaneVec& m,
+                                             const LaneVec& axis) {
+    const Lanes z = m.dot(axis);
+    const LaneVec across = m - z * axis;
+    const Lanes rho = square_root(across.dot(across));
+    if (!plane.is_round_) return plane.lateral_ * rho + plane.axial_ * z - plane.offset_;
+    const Lanes above = z - plane.round_.centre, beside = beside_circle(plane.round_, rho);
+    return square_root(beside * beside + above * above) - plane.round_.radius;
+  }
+
+  // As QuadPlanes has them, and about the height over the plane of a cutter in the middle.
+  struct GroupPlanes {
+    LaneVec normal;
+    Lanes height, lost, turn, in_the_middle;
+  };
+  FRUSTUM_OF_LANES static GroupPlanes of_groups(const SeparatingPlane& plane,
+                                                const GroupQuad& groups, std::size_t from) {
+    const LaneVec axis = vec_of<Lanes>(groups.axis, from);
+    const LaneVec one = vec_of<Lanes>(groups.first_column, from),
+                  two = vec_of<Lanes>(groups.second_column, from);
+    const LaneVec three = one.cross(two);
+    const LaneVec half = vec_of<Lanes>(groups.tip_half, from);
+    const Lanes turn = lanes_of<Lanes>(groups.axis_shift, from);
+    LaneVec m = all(plane.end_) - vec_of<Lanes>(groups.tip, from);
+    const Lanes in_the_middle = height_about(plane, m, axis);
+    // From the middle to the place in the box that is nearest to touching the end there.
+    LaneVec to{};
+    if (plane.is_round_ || plane.lateral_ > 0.0) {
+      const LaneVec way = way_to_end(plane, m, axis);
+      to = {within(way.dot(one), half.x), within(way.dot(two), half.y),
+            within(way.dot(three), half.z)};
+      m = m - (to.x * one + to.y * two + to.z * three);
+    }
+    const Planes at = touching(plane, m, axis);
+    const LaneVec n{at.normal.dot(one), at.normal.dot(two), at.normal.dot(three)};
+    Lanes lost = magnitude(n.x) * half.x - n.x * to.x + magnitude(n.y) * half.y - n.y * to.y +
+                 magnitude(n.z) * half.z - n.z * to.z;
+    bool turns = false;
+    for (std::size_t k = 0; k < kLanes<Lanes>; ++k) turns = turns || turn[k] > 0.0;
+    if (turns) {
+      const LaneVec by_axis = at.lateral * at.across.cross(m) + at.axial * m;
+      const LaneVec axis_half = vec_of<Lanes>(groups.axis_half, from);
+      const Lanes went = magnitude(to.x) + magnitude(to.y) + magnitude(to.z);
+      constexpr double kColumns = 1.000001;  // of the frame are units within 1e-7
+      lost = lost + magnitude(by_axis.dot(one)) * axis_half.x +
+             magnitude(by_axis.dot(two)) * axis_half.y +
+             magnitude(by_axis.dot(three)) * axis_half.z + lanes_of<Lanes>(groups.tip_turn, from) +
+             kColumns * went * turn;
+    }
+    return {at.normal, at.height, lost, turn, in_the_middle};
+  }
+  FRUSTUM_OF_LANES static void planes(const SeparatingPlane& plane, const GroupQuad& groups,
+                                      std::size_t from, QuadPlanes& all) {
+    const GroupPlanes at = of_groups(plane, groups, from);
+    store(at.normal.x, from, all.normal[0]);
+    store(at.normal.y, from, all.normal[1]);
+    store(at.normal.z, from, all.normal[2]);
+    store(at.height, from, all.height);
+    store(at.lost, from, all.lost);
+    store(at.turn, from, all.turn);
+  }
+  FRUSTUM_OF_LANES static void overreach(const SeparatingPlane& plane, const GroupQuad& groups,
+                                         double slack, std::size_t from, Overreach& over) {
+    const GroupPlanes at = of_groups(plane, groups, from);
+    const Lanes fall = at.normal.dot(all(plane.beyond_)) - at.turn;
+    const Lanes height = at.height + slack;
+    constexpr double kRounding = 1e-12;  // mm
+    store(fall > 0.0 ? (at.lost - height) / fall : all(std::numeric_limits<double>::infinity()),
+          from, over.most);
+    store(at.in_the_middle, from, over.height);
+    store(kRounding / fall, from, over.rounding);
+  }
+};
+
+#ifdef FRUSTUM_HAS_FOUR_LANES
+FRUSTUM_FOUR_LANES void SeparatingPlane::planes_four(const GroupQuad& groups,
+                                                     QuadPlanes& all) const {
+  OfLanes<Four>::planes(*this, groups, 0, all);
+}
+FRUSTUM_FOUR_LANES void SeparatingPlane::overreach_four(const GroupQuad& groups, double slack,
+                                                        Overreach& over) const {
+  OfLanes<Four>::overreach(*this, groups, slack, 0, over);
+}
+#endif
+
+QuadPlanes SeparatingPlane::planes(const GroupQuad& groups) const {
+  QuadPlanes all;
+#ifdef FRUSTUM_HAS_FOUR_LANES
+  if (has_four_lanes()) {
+    planes_four(groups, all);
+    return all;
+  }
+#endif
+  OfLanes<Both>::planes(*this, groups, 0, all);
+  OfLanes<Both>::planes(*this, groups, 2, all);
+  return all;
 }
 
-Overreach SeparatingPlane::overreach(const GroupPair& groups, double slack) const {
+Overreach SeparatingPlane::overreach(const GroupQuad& groups, double slack) const {
   if (body_ == nullptr) return {};
-  const PairPlanes at = planes(groups);
-  const Both fall = at.normal.dot(both(beyond_)) - at.turn;
-  const Both infinite = both(std::numeric_limits<double>::infinity());
-  const Both height = at.height + slack;
-  constexpr double kRounding = 1e-12;  // mm
-  return {fall > 0.0 ? (at.lost - height) / fall : infinite, at.in_the_middle, kRounding / fall};
+  Overreach over;
+#ifdef FRUSTUM_HAS_FOUR_LANES
+  if (has_four_lanes()) {
+    overreach_four(groups, slack, over);
+    return over;
+  }
+#endif
+  OfLanes<Both>::overreach(*this, groups, slack, 0, over);
+  OfLanes<Both>::overreach(*this, groups, slack, 2, over);
+  return over;
 }
 
 double SeparatingPlane::along(const ToolPose& pose) const {
   if (body_ == nullptr) return 0.0;
-  return touching(both(end_ - pose.tip), both(pose.axis)).normal.dot(both(beyond_))[0];
+  using Pose = OfLanes<Both>;
+  return Pose::touching(*this, Pose::all(end_ - pose.tip), Pose::all(pose.axis))
+      .normal.dot(Pose::all(beyond_))[0];
 }
 
 double SeparatingPlane::room(const ToolPose& from, const ToolPose& to, double slack) const {
   constexpr double kUnknown = -std::numeric_limits<double>::infinity();
   if (body_ == nullptr) return kUnknown;
+  using Poses = OfLanes<Both>;
   const auto lanes = [](const Vec3& a, const Vec3& b) {
-    return BothVec{{a.x(), b.x()}, {a.y(), b.y()}, {a.z(), b.z()}};
+    return LanesVec<Both>{{a.x(), b.x()}, {a.y(), b.y()}, {a.z(), b.z()}};
   };
-  const BothVec m = lanes(end_ - from.tip, end_ - to.tip);
-  const Planes at = touching(m, lanes(from.axis, to.axis));
+  const LanesVec<Both> m = lanes(end_ - from.tip, end_ - to.tip);
+  const Poses::Planes at = Poses::touching(*this, m, lanes(from.axis, to.axis));
   const Both height = at.height + slack;
   const double lower = std::min(height[0], height[1]);
   if (lower < 0.0) return lower;
   const Vec3 step = to.tip - from.tip, turn = to.axis - from.axis;
   // What the height loses by a straight line from either end to the other, and by turning.
-  Both lost = Both{1.0, -1.0} * at.normal.dot(both(step));
+  Both lost = Both{1.0, -1.0} * at.normal.dot(Poses::all(step));
   double bend = 0.0, chord = 0.0;
   if (turn != Vec3::Zero()) {
     constexpr double kFarTurned = 0.05;
     const double chord2 = turn.squaredNorm();
     if (chord2 > kFarTurned * kFarTurned) return kUnknown;
     chord = std::sqrt(chord2);
-    const BothVec by_axis = at.lateral * at.across.cross(m) + at.axial * m;
-    lost = lost - Both{1.0, -1.0} * by_axis.dot(both(turn)) + step.norm() * chord;
+    const LanesVec<Both> by_axis = at.lateral * at.across.cross(m) + at.axial * m;
+    lost = lost - Both{1.0, -1.0} * by_axis.dot(Poses::all(turn)) + step.norm() * chord;
     // From its chord the axis is never farther than turn^2 / 8, and 1.01 is more than the turn has
     // over the chord.
     const Vec3 from_tip = end_ - from.tip;
     bend = 1.01 / 8.0 * chord2 * (from_tip.norm() + 2.0 * step.norm());
   }
-  const Both fall = at.normal.dot(both(beyond_));
+  const Both fall = at.normal.dot(Poses::all(beyond_));
   if (!(fall[0] > chord) || !(fall[1] > chord)) return kUnknown;
   const double here = height[0] - bend, here_there = here - lost[0];
   const double there = height[1] - bend, there_here = there - lost[1];

@@ -29,25 +29,27 @@ struct EndContact {
   ToolPose pose{};
 };
 
-// Of two groups: how far along the ray they may cover more than the end (mm; not positive: surely
+// Of four groups: how far along the ray they may cover more than the end (mm; not positive: surely
 // nothing), and about how far the end is beyond the plane of a cutter in their middle (less than 0:
 // it may well cover more).
 struct Overreach {
-  Both most = both(std::numeric_limits<double>::infinity());
-  Both height = both(-1.0);
-  Both rounding =
-      both(0.0);  // of `most` (mm): what 1e-12 mm normal to the plane makes along the ray
+  DoubleFour most = four_of(std::numeric_limits<double>::infinity());
+  DoubleFour height = four_of(-1.0);
+  DoubleFour rounding{};  // of `most` (mm): what 1e-12 mm normal to the plane makes along the ray
 };
 
-// Planes that touch the cutters of two groups, each where it comes nearest to the end: none of any
+// Planes that touch the cutters of four groups, each where it comes nearest to the end: none of any
 // pose of its group passes it, but for what it is lowered by. At a place that is y from the end the
 // plane is normal.y higher, and lowered by at most turn |y| more.
-struct PairPlanes {
-  BothVec normal{};                // out of the cutters; units
-  Both height = both(0.0);         // of the end over the plane that comes nearest (mm)
-  Both lost = both(0.0);           // over that of any pose it may be lower by so much
-  Both turn = both(0.0);           // no axis of the group is farther from the middle's
-  Both in_the_middle = both(0.0);  // about the height over the plane of a cutter there
+struct QuadPlanes {
+  std::array<DoubleFour, 3> normal{};  // out of the cutters; units
+  DoubleFour height{};                 // of the end over the plane that comes nearest (mm)
+  DoubleFour lost{};                   // over that of any pose it may be lower by so much
+  DoubleFour turn{};                   // no axis of the group is farther from the middle's
+
+  [[nodiscard]] Vec3 normal_of(std::size_t lane) const {
+    return {normal[0][lane], normal[1][lane], normal[2][lane]};
+  }
 };
 
 class SeparatingPlane {
@@ -68,11 +70,11 @@ class SeparatingPlane {
   // Unit, along the ray, away from what is covered.
   [[nodiscard]] const Vec3& beyond() const { return beyond_; }
   // Precondition: has_proof().
-  [[nodiscard]] PairPlanes planes(const GroupPair& groups) const;
+  [[nodiscard]] QuadPlanes planes(const GroupQuad& groups) const;
 
   // `slack`: so much beyond the plane, normal to it, does not count (mm). Negative: the proof is
   // that the cutter stays so much before the end.
-  [[nodiscard]] Overreach overreach(const GroupPair& groups, double slack = kSearchTolerance) const;
+  [[nodiscard]] Overreach overreach(const GroupQuad& groups, double slack = kSearchTolerance) const;
   // Cosine between the ray and the plane's normal when the body is at the pose; 0: no plane.
   [[nodiscard]] double along(const ToolPose& pose) const;
   // The end is at least so far beyond the plane (mm) while the body moves from pose to pose; if it
@@ -89,18 +91,14 @@ class SeparatingPlane {
   }
 
  private:
-  // The planes of two cutters towards the end, which is at `m` from their tips.
-  struct Planes {
-    Both axial, lateral;
-    BothVec across;  // unit vectors across the meridians
-    BothVec normal;
-    Both height;  // of the end above the plane
-  };
-  [[nodiscard]] Planes touching(const BothVec& m, const BothVec& axis) const;
-  // Of the end above the plane of a cutter, about.
-  [[nodiscard]] Both height_about(const BothVec& m, const BothVec& axis) const;
-  // From the tip to where it is nearest to the end, as if it could go anywhere.
-  [[nodiscard]] BothVec way_to_end(const BothVec& m, const BothVec& axis) const;
+  // What is written once for two and for four lanes.
+  template <class Lanes>
+  struct OfLanes;
+#ifdef FRUSTUM_HAS_FOUR_LANES
+  FRUSTUM_FOUR_LANES void planes_four(const GroupQuad& groups, QuadPlanes& all) const;
+  FRUSTUM_FOUR_LANES void overreach_four(const GroupQuad& groups, double slack,
+                                         Overreach& over) const;
+#endif
   [[nodiscard]] double support(double lateral, double axial) const;
 
   const Body* body_ = nullptr;  // null: no proof

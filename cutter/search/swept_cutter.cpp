@@ -85,14 +85,14 @@ class NearGroups {
       : path_(path), sweep_(sweep), ball_(ball), first_excluded_(first_excluded), found_(found) {}
 
   void add(std::uint32_t index) {
+    if (sweep_.tree.is_free(index)) return;
     const PoseGroup group = sweep_.tree.group(index);
     if (is_away(group)) return;
     if (group.count > 0 || group.shift <= kCoarsest * ball_.radius) {
       found_.push_back(index);
       return;
     }
-    add(group.children);
-    add(group.children + 1);
+    for (std::uint32_t k = 0; k < kSiblings; ++k) add(group.children + k);
   }
 
  private:
@@ -325,8 +325,9 @@ double SweptCutter::clearance(const Vec3& point, std::uint32_t first, std::uint3
       const double distance = sweep.body->distance(group.representative(path_), point);
       if (distance - group.shift >= least) continue;
       if (group.count == 0) {
-        open.push_back(group.children + 1);
-        open.push_back(group.children);
+        for (std::uint32_t k = kSiblings; k-- > 0;) {
+          if (!sweep.tree.is_free(group.children + k)) open.push_back(group.children + k);
+        }
         continue;
       }
       for (const std::uint32_t i : sweep.tree.segments().subspan(group.first, group.count)) {

@@ -9,6 +9,7 @@
 // Source   : ours
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -47,18 +48,25 @@ struct HalfCover {
   bool is_beyond = false;         // the end is beyond the span on all rays
   TileAnchor anchor{};
 
-  // All rays of the tile leave what is covered so far before any cutter of two groups, by planes,
+  // All rays of the tile leave what is covered so far before any cutter of four groups, by planes,
   // normal to these (mm). Between the corners the end is farther out than a straight line, and a
   // plane of a group no nearer than one.
-  [[nodiscard]] Both behind(const GroupPair& groups) const {
-    const PairPlanes planes = plane.planes(groups);
-    Both least = both(kInfinity);
-    for (const Vec3& end : ends) {
-      const Vec3 off = end - plane.end();
-      least = smaller(planes.normal.dot(both(off)) - planes.turn * off.norm(), least);
+  [[nodiscard]] DoubleFour behind(const GroupQuad& groups) const {
+    const QuadPlanes planes = plane.planes(groups);
+    DoubleFour all;
+    for (std::size_t lane = 0; lane < kSiblings; ++lane) {
+      const Vec3 normal = planes.normal_of(lane);
+      const double turn = planes.turn[lane];
+      double least = kInfinity;
+      for (const Vec3& end : ends) {
+        const Vec3 off = end - plane.end();
+        least = std::min(normal.dot(off) - turn * off.norm(), least);
+      }
+      all[lane] = normal.dot(plane.beyond()) > turn
+                      ? least + planes.height[lane] - planes.lost[lane]
+                      : -kInfinity;
     }
-    const Both fall = planes.normal.dot(both(plane.beyond())) - planes.turn;
-    return fall > 0.0 ? least + planes.height - planes.lost : both(-kInfinity);
+    return all;
   }
 };
 

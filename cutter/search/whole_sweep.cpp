@@ -39,8 +39,7 @@ SeparatingPlane EndPlanes::at(const SweptIntervalEnd& end, bool leaving) const {
 
 WholeSweep::WholeSweep(const RayQuestion& question, const ToolSweep& sweep, const EndPlanes& planes,
                        std::span<const SweptInterval> swept)
-    : question_(question), pairs_(sweep.tree.pairs()), planes_(planes) {
-  pieces_.reserve(swept.size() + 4);
+    : question_(question), quads_(sweep.tree.quads()), planes_(planes) {
   for (const SweptInterval& c : swept) {
     pieces_.push_back({{.at = c.lo, .solved = true, .has_plane = true},
                        {.at = c.hi, .solved = true, .has_plane = true}});
@@ -94,7 +93,7 @@ RaySpan WholeSweep::counted(const GroupReach& reach) {
 bool WholeSweep::wants(std::uint32_t group, const RaySpan& counted) const {
   const auto [lo, hi] = counted;
   if (!(std::max(lo, span().lo) <= std::min(hi, span().hi))) return false;
-  const std::uint32_t earliest = pairs_[group / 2].earliest[group % 2];
+  const std::uint32_t earliest = quads_[group / kSiblings].earliest[group % kSiblings];
   for (const Piece& c : pieces_) {
     const bool held = (c.hi.at.s >= span().hi || behind(hi, earliest, c.hi, true)) &&
                       (c.lo.at.s <= span().lo || behind(-lo, earliest, c.lo, false)) &&
@@ -120,15 +119,15 @@ const SeparatingPlane& WholeSweep::plane_at(End& end, bool leaving) const {
   return end.plane;
 }
 
-WholeSweep::Held WholeSweep::held_by(End& end, const GroupPair& groups, bool leaving) const {
+WholeSweep::Held WholeSweep::held_by(End& end, const GroupQuad& groups, bool leaving) const {
   const Overreach over = plane_at(end, leaving).overreach(groups, 0.0);
   Held held;
-  for (std::size_t half = 0; half < 2; ++half) {
-    held.bounds[half] = over.most[half] < kInfinity;
-    held.is_beyond[half] = over.height[half] < 0.0;
-    held.holds[half] = held.bounds[half] && behind(depth_of(end.at, leaving) + over.most[half] +
-                                                       kBoundRounding + over.rounding[half],
-                                                   groups.earliest[half], end, leaving);
+  for (std::size_t lane = 0; lane < kSiblings; ++lane) {
+    held.bounds[lane] = over.most[lane] < kInfinity;
+    held.is_beyond[lane] = over.height[lane] < 0.0;
+    held.holds[lane] = held.bounds[lane] && behind(depth_of(end.at, leaving) + over.most[lane] +
+                                                       kBoundRounding + over.rounding[lane],
+                                                   groups.earliest[lane], end, leaving);
   }
   return held;
 }
@@ -148,25 +147,40 @@ bool WholeSweep::held_by(End& end, std::uint32_t segment, const ToolPose& from, 
   return plane.holds(from, to, -1.01 * kSearchTolerance);
 }
 
-PairLimit WholeSweep::limit(const GroupPair& groups, const PairSpan& in_box) {
-  PairLimit limits{};
+QuadLimit WholeSweep::limit(const GroupQuad& groups, const QuadSpan& in_box) {
+  QuadLimit limits{};
   for (Piece& c : pieces_) {
     // What is elsewhere on the ray may be held back as well, but rarely is.
-    const bool is_there = (in_box.lo[0] <= c.hi.at.s && in_box.hi[0] >= c.lo.at.s) ||
-                          (in_box.lo[1] <= c.hi.at.s && in_box.hi[1] >= c.lo.at.s);
-    if (!is_there) continue;
+    double first = kInfinity, last = -kInfinity;
+    for (std::size_t lane = 0; lane < kSiblings; ++lane) {
+      if (!(in_box.lo[lane] <= c.hi.at.s && in_box.hi[lane] >= c.lo.at.s)) continue;
+      first = std::min(first, in_box.lo[lane]);
+      last = std::max(last, in_box.hi[lane]);
+    }
+    if (!(first <= last)) continue;
+    // What the nearer end does not hold back, the other mostly does.
     Held hi, lo;
-    if (c.hi.at.s < span().hi) hi = held_by(c.hi, groups, true);
-    if (c.lo.at.s > span().lo) lo = held_by(c.lo, groups, false);
-    for (std::size_t half = 0; half < 2; ++half) {
-      GroupLimit& limit = limits[half];
-      limit.holds = limit.holds || (hi.holds[half] && lo.holds[half]);
-      if (!hi.bounds[half] || !lo.bounds[half]) continue;
+    const auto ask_hi = [&] {
+      if (c.hi.at.s < span().hi) hi = held_by(c.hi, groups, true);
+      return hi.any();
+    };
+    const auto ask_lo = [&] {
+      if (c.lo.at.s > span().lo) lo = held_by(c.lo, groups, false);
+      return lo.any();
+    };
+    const bool is_near_hi = last - c.hi.at.s > c.lo.at.s - first;
+    static_cast<void>(is_near_hi ? ask_hi() && ask_lo() : ask_lo() && ask_hi());
+    bool all = true;
+    for (std::size_t lane = 0; lane < kSiblings; ++lane) {
+      GroupLimit& limit = limits[lane];
+      limit.holds = limit.holds || (hi.holds[lane] && lo.holds[lane]);
+      all = all && limit.holds;
+      if (!hi.bounds[lane] || !lo.bounds[lane]) continue;
       // It is beside this piece: what its representative covers says little more.
       limit.hi = span().hi;
-      limit.counts_representative = hi.is_beyond[half] || lo.is_beyond[half];
+      limit.counts_representative = hi.is_beyond[lane] || lo.is_beyond[lane];
     }
-    if (limits[0].holds && limits[1].holds) break;
+    if (all) break;
   }
   return limits;
 }
@@ -182,7 +196,7 @@ double WholeSweep::room(std::uint32_t segment, const ToolPose& from, const ToolP
 std::span<const Chord> WholeSweep::known() {
   known_.clear();
   for (const Piece& c : pieces_) known_.push_back({c.lo.at.s, c.hi.at.s});
-  return known_;
+  return {known_.data(), known_.size()};
 }
 
 std::span<const Chord> WholeSweep::floors() {
@@ -193,7 +207,7 @@ std::span<const Chord> WholeSweep::floors() {
     const Chord inside{c.lo.at.s + kWellInside, c.hi.at.s - kWellInside};
     if (inside.lo < inside.hi) known_.push_back(inside);
   }
-  return known_;
+  return {known_.data(), known_.size()};
 }
 
 void WholeSweep::take(const SweptInterval& next) {

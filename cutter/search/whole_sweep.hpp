@@ -12,6 +12,7 @@
 #pragma once
 
 #include <array>
+#include <boost/container/small_vector.hpp>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -60,7 +61,7 @@ class WholeSweep {
   [[nodiscard]] static RaySpan counted(const GroupReach& reach);
   [[nodiscard]] bool wants(std::uint32_t group, const RaySpan& counted) const;
   [[nodiscard]] bool wants_piece(std::uint32_t group, double lo, double hi) const;
-  [[nodiscard]] PairLimit limit(const GroupPair& groups, const PairSpan& in_box);
+  [[nodiscard]] QuadLimit limit(const GroupQuad& groups, const QuadSpan& in_box);
   [[nodiscard]] double room(std::uint32_t segment, const ToolPose& from, const ToolPose& to);
   [[nodiscard]] std::span<const Chord> known();
   // Solutions of ends that may count do not depend on what is covered already: an end is left
@@ -83,21 +84,23 @@ class WholeSweep {
   [[nodiscard]] static bool wins(const End& a, const End& b, bool leaving);
   [[nodiscard]] static bool behind(double depth, std::uint32_t earliest, const End& end,
                                    bool leaving);
-  // What an end says of two groups: that they are held back; that they are not ahead of it, and
+  // What an end says of four groups: that they are held back; that they are not ahead of it, and
   // then whether a cutter in the middle likely covers more.
   struct Held {
-    std::array<bool, 2> holds{true, true}, bounds{true, true}, is_beyond{false, false};
+    std::array<bool, kSiblings> holds{true, true, true, true}, bounds{true, true, true, true},
+        is_beyond{};
+    [[nodiscard]] bool any() const { return holds[0] || holds[1] || holds[2] || holds[3]; }
   };
-  [[nodiscard]] Held held_by(End& end, const GroupPair& groups, bool leaving) const;
+  [[nodiscard]] Held held_by(End& end, const GroupQuad& groups, bool leaving) const;
   [[nodiscard]] bool held_by(End& end, std::uint32_t segment, const ToolPose& from,
                              const ToolPose& to, bool leaving) const;
   const SeparatingPlane& plane_at(End& end, bool leaving) const;
 
   const RayQuestion& question_;
-  std::span<const GroupPair> pairs_;
+  std::span<const GroupQuad> quads_;
   const EndPlanes& planes_;
-  std::vector<Piece> pieces_{};
-  std::vector<Chord> known_{};
+  boost::container::small_vector<Piece, 4> pieces_{};
+  boost::container::small_vector<Chord, 4> known_{};
   int change_ = 0;
 };
 

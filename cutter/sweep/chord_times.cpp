@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "core/constants.hpp"
-#include "core/golden_section.hpp"
 #include "cutter/sweep/segment_sweep.hpp"
 
 namespace frustum::cutter {
@@ -71,11 +71,13 @@ SeparatingPlane separate(const Profile& body, const ToolPose& pose, const Ray& r
       best_psi = i * kStep;
     }
   }
-  // 40 steps narrow the angle to 1e-8 rad, where the gap is flat within rounding.
-  const GoldenBracket best = golden_section([&](double psi) { return -gap_at(psi); },
-                                            best_psi - kStep, best_psi + kStep, 0.0, 40);
-  const Vec3 normal = normal_at(best.middle());
-  return {normal, gap_of(normal, body, pose, ray)};
+  // To 1e-7 rad, where the gap is flat within rounding.
+  constexpr int kBits = 24;
+  const auto [psi, loss] = boost::math::tools::brent_find_minima(
+      [&](double at) { return -gap_at(at); }, best_psi - kStep, best_psi + kStep, kBits);
+  if (-loss < best_gap) return {normal_at(best_psi), best_gap};
+  const Vec3 normal = normal_at(psi);
+  return {normal, -loss};
 }
 
 }  // namespace

@@ -11,8 +11,9 @@
 //            kMissedDepth
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <optional>
-#include <vector>
+#include <span>
 
 #include "cutter/body/profile.hpp"
 #include "cutter/sweep/segment_motion.hpp"
@@ -37,7 +38,9 @@ class ChordTimes {
   ChordTimes(const Profile& body, const SegmentMotion& motion, const Ray& ray);
 
   // Sorted by time; a sample without a chord parts two runs.
-  [[nodiscard]] const std::vector<ChordSample>& samples() const { return samples_; }
+  [[nodiscard]] std::span<const ChordSample> samples() const {
+    return {samples_.data(), samples_.size()};
+  }
 
   // Adds a moment between sample i and the next, with what is around it.
   void insert(std::size_t i, double t);
@@ -57,7 +60,7 @@ class ChordTimes {
   const Profile& body_;
   const SegmentMotion& motion_;
   const Ray& ray_;
-  std::vector<ChordSample> samples_{};
+  boost::container::small_vector<ChordSample, 8> samples_{};
 };
 
 }  // namespace frustum::cutter

@@ -314,7 +314,7 @@ ConcaveSweep::Covered ConcaveSweep::covered_from(double s, Nearest& here, double
   return last.is_longer ? along : around;
 }
 
-void ConcaveSweep::walk(double lo, double hi, std::vector<SegmentInterval>& found) const {
+void ConcaveSweep::walk(double lo, double hi, SegmentIntervals& found) const {
   LeastStep least;
   double s = lo, stretch = hi - lo;
   Following follow{hi - lo};

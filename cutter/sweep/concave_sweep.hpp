@@ -48,7 +48,7 @@ class ConcaveSweep {
   // walk does not.
   [[nodiscard]] bool slides() const;
   // Appends what is covered between lo and hi.
-  void walk(double lo, double hi, std::vector<SegmentInterval>& found) const;
+  void walk(double lo, double hi, SegmentIntervals& found) const;
   // When the body's surface, or its inside, is nearest to the ray's point at s.
   [[nodiscard]] double nearest_state(double s) const { return nearest(s, 0.5, Want::least).t; }
   // How often it has asked how far a point is from the body.

@@ -170,6 +170,16 @@ class HighestEnd {
     if (depth > 60 || dt * motion_.travel() < kSameState) return;
     const bool has_edge = is_edge_between(a, b);
     if (has_edge && (best_t_ == a.t || best_t_ == b.t)) beside_edge_.emplace(a, b);
+    // First of all, so that where a top is does not depend on what is covered.
+    if (!is_sought && !has_edge) {
+      is_sought = true;
+      if (const auto top = summit_between(a, b, 0.25 * kSearchTolerance)) {
+        close_in(a, *top, depth + 1, true);
+        close_in(*top, b, depth + 1, true);
+        return;
+      }
+      if (gap_) return;
+    }
     if (motion_.turn() > 0.0 && surely_no_deeper(a, b)) return;
     const double along = std::max(a.plane.along, b.plane.along);
     const double enough = std::max(best_value_, floor_) + kSearchTolerance / along;
@@ -180,15 +190,6 @@ class HighestEnd {
       if (surely_no_deeper(a, b)) return;
       climb(a.t, b.t);
       return;
-    }
-    if (!is_sought && !has_edge) {
-      is_sought = true;
-      if (const auto top = summit_between(a, b, 0.25 * kSearchTolerance)) {
-        close_in(a, *top, depth + 1, true);
-        close_in(*top, b, depth + 1, true);
-        return;
-      }
-      if (gap_) return;
     }
     if (++looks_ > kMostLooks) return;
     const double x = roof.place_to_look(depth, has_edge);
@@ -249,8 +250,10 @@ class HighestEnd {
     struct Place {
       double t, slope;
     };
-    Place rises{a.t, slope_of(a)}, falls{b.t, slope_of(b)};
-    if (!(rises.slope > 0.0 && falls.slope < 0.0)) return std::nullopt;
+    Place rises{a.t, slope_of(a)};
+    if (!(rises.slope > 0.0)) return std::nullopt;
+    Place falls{b.t, slope_of(b)};
+    if (!(falls.slope < 0.0)) return std::nullopt;
     // The secant through the last two, the first of which is the flatter end.
     Place last = rises, before = falls;
     if (last.slope > -before.slope) std::swap(last, before);
@@ -302,10 +305,14 @@ class HighestEnd {
     const double best = std::max(best_value_, floor_);
     if (std::isinf(best)) return false;
     const Vec3 point = ray_.at(leaving_ ? best : -best);
-    const double from_a = height_holds(a, b.pose, point);
-    if (!(from_a > 0.0)) return false;
-    const double from_b = height_holds(b, a.pose, point);
-    return from_b > 0.0 && from_a + from_b >= 1.0;
+    // At a smooth top the plane mostly holds all the way.
+    const bool is_at_a = a.plane.value > b.plane.value;
+    const Touched &higher = is_at_a ? a : b, &lower = is_at_a ? b : a;
+    const double from_higher = height_holds(higher, lower.pose, point);
+    if (!(from_higher > 0.0)) return false;
+    if (from_higher >= 1.0) return true;
+    const double from_lower = height_holds(lower, higher.pose, point);
+    return from_lower > 0.0 && from_higher + from_lower >= 1.0;
   }
 
   // From a sample towards a pose: for what share of the way the point is surely not below the plane
@@ -400,7 +407,7 @@ std::optional<SegmentEnds> ends_that_overlap(const Profile& body, const SegmentM
 }  // namespace
 
 void append_swept_intervals(const Profile& body, const SegmentMotion& motion, const Ray& ray,
-                            std::span<const Chord> known, std::vector<SegmentInterval>& found) {
+                            std::span<const Chord> known, SegmentIntervals& found) {
   // Nearly always the ray meets the cutter at both ends of a short motion.
   if (const auto ends = ends_that_overlap(body, motion, ray)) {
     const Chord inside = overlapped(known, *ends->from.chord);
@@ -469,12 +476,12 @@ std::optional<LastExit> last_exit(const Profile& body, const SegmentMotion& moti
 
 std::vector<SegmentInterval> swept_intervals(const Profile& body, const SegmentMotion& motion,
                                              const Ray& ray) {
-  std::vector<SegmentInterval> found;
+  FewSegmentIntervals found;
   append_swept_intervals(body, motion, ray, {}, found);
-  return found;
+  return {found.begin(), found.end()};
 }
 
-void join_overlapping(std::vector<SegmentInterval>& pieces) {
+void join_overlapping(SegmentIntervals& pieces) {
   std::ranges::sort(pieces, {}, [](const SegmentInterval& p) { return p.lo.s; });
   std::size_t last = 0;
   for (std::size_t i = 1; i < pieces.size(); ++i) {

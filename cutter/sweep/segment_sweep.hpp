@@ -13,6 +13,7 @@
 // Source   : envelope condition of swept volumes; Kelley 1960 (cutting planes) in one dimension
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <limits>
 #include <optional>
 #include <span>
@@ -35,6 +36,10 @@ struct SegmentInterval {
   SweptEnd hi{};
 };
 
+// Of one ray: mostly one.
+using SegmentIntervals = boost::container::small_vector_base<SegmentInterval>;
+using FewSegmentIntervals = boost::container::small_vector<SegmentInterval, 4>;
+
 // No error of an end, normal to the surface, is larger than this because the search stops (mm).
 inline constexpr double kSearchTolerance = 4e-10;
 // A piece of the ray that is covered may be missed only where the ray enters the sweep by less than
@@ -44,7 +49,7 @@ inline constexpr double kMissedDepth = 0.5e-6;
 // Appends the exact intervals, in no particular order, possibly overlapping. An end inside an
 // interval of `known` (what is covered anyway) that the interval overlaps may be left inexact.
 void append_swept_intervals(const Profile& body, const SegmentMotion& motion, const Ray& ray,
-                            std::span<const Chord> known, std::vector<SegmentInterval>& found);
+                            std::span<const Chord> known, SegmentIntervals& found);
 [[nodiscard]] std::vector<SegmentInterval> swept_intervals(const Profile& body,
                                                            const SegmentMotion& motion,
                                                            const Ray& ray);
@@ -55,7 +60,7 @@ void append_swept_intervals(const Profile& body, const SegmentMotion& motion, co
                                                    const Ray& ray, double s);
 
 // Sorts them and unites those that overlap: rays that graze make many pieces of one.
-void join_overlapping(std::vector<SegmentInterval>& pieces);
+void join_overlapping(SegmentIntervals& pieces);
 
 // Where the ray leaves the sweep last, with the planes that touch the body there as the motion
 // begins and ends. Only if the ray meets the body at both ends of a motion that turns little.

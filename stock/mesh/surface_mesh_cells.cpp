@@ -29,7 +29,7 @@ constexpr CellFace cell_face(int axis, int side) {
   return face;
 }
 
-bool alternates(const Cell& cell, const CellFace& face) {
+constexpr bool alternates(const Cell& cell, const CellFace& face) {
   return cell.inside(face.corners[0]) != cell.inside(face.corners[1]) &&
          cell.inside(face.corners[0]) == cell.inside(face.corners[2]) &&
          cell.inside(face.corners[1]) == cell.inside(face.corners[3]);
@@ -38,14 +38,16 @@ bool alternates(const Cell& cell, const CellFace& face) {
 // Twelve edges in sets; the representative of a set is its lowest edge.
 class EdgeSets {
  public:
-  EdgeSets() { std::iota(parent_.begin(), parent_.end(), 0); }
-  [[nodiscard]] int root(int edge) const {
+  constexpr EdgeSets() {
+    for (int edge = 0; edge < 12; ++edge) parent_[static_cast<std::size_t>(edge)] = edge;
+  }
+  [[nodiscard]] constexpr int root(int edge) const {
     while (parent_[static_cast<std::size_t>(edge)] != edge) {
       edge = parent_[static_cast<std::size_t>(edge)];
     }
     return edge;
   }
-  void unite(int a, int b) {
+  constexpr void unite(int a, int b) {
     const int low = std::min(root(a), root(b));
     const int high = std::max(root(a), root(b));
     parent_[static_cast<std::size_t>(high)] = low;
@@ -56,7 +58,7 @@ class EdgeSets {
 };
 
 // Adds the arcs of a face. Around corner c run the edges c and c - 1 of the face.
-void add_arcs(EdgeSets& sets, const Cell& cell, const CellFace& face, bool joined) {
+constexpr void add_arcs(EdgeSets& sets, const Cell& cell, const CellFace& face, bool joined) {
   if (alternates(cell, face)) {
     for (std::size_t c = 0; c < 4; ++c) {
       if (cell.inside(face.corners[c]) != joined)
@@ -70,6 +72,51 @@ void add_arcs(EdgeSets& sets, const Cell& cell, const CellFace& face, bool joine
     if (open >= 0) sets.unite(open, edge);
     open = edge;
   }
+}
+
+// The pieces that a cell's edges are of, by whose arcs they are joined.
+constexpr void number_pieces(const EdgeSets& sets, Cell& cell) {
+  cell.pieces = 0;
+  cell.piece_count = 0;
+  std::array<std::uint32_t, 12> piece_of_root{};
+  for (int edge = 0; edge < 12; ++edge) {
+    if (!cell.crosses(edge)) continue;
+    const int root = sets.root(edge);
+    auto& piece = piece_of_root[static_cast<std::size_t>(root)];
+    if (root == edge) piece = cell.piece_count++;
+    cell.pieces |= piece << 2 * edge;
+  }
+}
+
+// What the corners of a cell say of it; where a face alternates, its pieces are not known by them.
+struct CornerCase {
+  std::uint32_t pieces = 0;
+  std::uint8_t piece_count = 0;
+  std::uint8_t alternating = 0;  // a bit 2 axis + side for each face
+};
+constexpr std::array<CornerCase, 256> kCornerCases = [] {
+  std::array<CornerCase, 256> cases{};
+  for (int corners = 0; corners < 256; ++corners) {
+    Cell cell{.corners = static_cast<std::uint8_t>(corners)};
+    EdgeSets sets;
+    CornerCase& here = cases[static_cast<std::size_t>(corners)];
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int side = 0; side < 2; ++side) {
+        const CellFace face = cell_face(axis, side);
+        add_arcs(sets, cell, face, false);
+        if (alternates(cell, face))
+          here.alternating = static_cast<std::uint8_t>(here.alternating | 1 << (2 * axis + side));
+      }
+    }
+    number_pieces(sets, cell);
+    here.pieces = cell.pieces;
+    here.piece_count = cell.piece_count;
+  }
+  return cases;
+}();
+
+bool alternates(const Cell& cell, int axis, int side) {
+  return (kCornerCases[cell.corners].alternating >> (2 * axis + side) & 1) != 0;
 }
 
 // How badly an arc between two crossings leaves their tangent planes.
@@ -142,8 +189,8 @@ void Cells::choose_arcs(const Crossings& crossings) {
   for_each_cell([&](std::size_t c, const Place& place) {
     Cell& cell = cells_[c];
     for (int axis = 0; axis < 3; ++axis) {
+      if (!alternates(cell, axis, 0)) continue;
       const CellFace face = cell_face(axis, 0);
-      if (!alternates(cell, face)) continue;
       std::array<HermiteSample, 4> samples;
       for (std::size_t k = 0; k < 4; ++k) {
         const CellEdge e = cell_edge(face.edges[k]);
@@ -164,29 +211,25 @@ void Cells::choose_arcs(const Crossings& crossings) {
 // Finds the pieces of one cell from the choices made for its faces.
 void Cells::trace(std::size_t at, const Place& place) {
   Cell& cell = cells_[at];
+  const CornerCase& corners = kCornerCases[cell.corners];
+  if (corners.alternating == 0) {
+    cell.pieces = corners.pieces;
+    cell.piece_count = corners.piece_count;
+    return;
+  }
   EdgeSets sets;
   for (int axis = 0; axis < 3; ++axis) {
     for (int side = 0; side < 2; ++side) {
-      const CellFace face = cell_face(axis, side);
       const Cell* owner = &cell;
-      if (side == 1 && alternates(cell, face)) {
+      if (side == 1 && alternates(cell, axis, side)) {
         Place next = place;
         ++next[static_cast<std::size_t>(axis)];
         owner = &cells_[index_of(next)];
       }
-      add_arcs(sets, cell, face, (owner->joined >> axis & 1) != 0);
+      add_arcs(sets, cell, cell_face(axis, side), (owner->joined >> axis & 1) != 0);
     }
   }
-  cell.pieces = 0;
-  cell.piece_count = 0;
-  std::array<std::uint32_t, 12> piece_of_root{};
-  for (int edge = 0; edge < 12; ++edge) {
-    if (!cell.crosses(edge)) continue;
-    const int root = sets.root(edge);
-    auto& piece = piece_of_root[static_cast<std::size_t>(root)];
-    if (root == edge) piece = cell.piece_count++;
-    cell.pieces |= piece << 2 * edge;
-  }
+  number_pieces(sets, cell);
   assert(cell.piece_count >= 1 && cell.piece_count <= 4);
 }
 
@@ -200,7 +243,7 @@ void Cells::part_shared_cycles() {
     for (int i = 0; i < columns_x_; ++i) {
       for (std::size_t c = first_[column_index(i, j)]; c < first_[column_index(i, j) + 1]; ++c) {
         for (int axis = 0; axis < 3; ++axis) {
-          if (!alternates(cells_[c], cell_face(axis, 0))) continue;
+          if (!alternates(cells_[c], axis, 0)) continue;
           const Place place{i, j, cells_[c].level};
           Place below = place;
           --below[static_cast<std::size_t>(axis)];

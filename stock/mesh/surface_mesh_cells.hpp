@@ -27,7 +27,7 @@ namespace frustum::stock {
 struct CellEdge {
   int axis = 0;
   int low_corner = 0;
-  [[nodiscard]] int high_corner() const { return low_corner | (1 << axis); }
+  [[nodiscard]] constexpr int high_corner() const { return low_corner | (1 << axis); }
 };
 [[nodiscard]] constexpr CellEdge cell_edge(int edge) {
   const int axis = edge / 4;
@@ -44,8 +44,8 @@ struct Cell {
   std::uint8_t joined = 0;  // a bit for the low face of each axis: arcs run round void corners
   std::uint8_t piece_count = 0;
 
-  [[nodiscard]] bool inside(int corner) const { return (corners >> corner & 1) != 0; }
-  [[nodiscard]] bool crosses(int edge) const {
+  [[nodiscard]] constexpr bool inside(int corner) const { return (corners >> corner & 1) != 0; }
+  [[nodiscard]] constexpr bool crosses(int edge) const {
     const CellEdge e = cell_edge(edge);
     return inside(e.low_corner) != inside(e.high_corner());
   }

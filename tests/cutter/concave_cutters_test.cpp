@@ -195,7 +195,7 @@ TEST(HollowCutterLaws, LongLevelSegmentsLeaveARayInTheEndPlaneAlone) {
       const Vec3 along = axis.cross(Vec3(0.6, 0.8, 0.1)).normalized();
       const Ray ray{tip + share * 50.0 * feed + beside * axis.cross(along) - 50.0 * along, along};
       const cutter::ConcaveSweep sweep(tool.body(), motion, ray);
-      std::vector<cutter::SegmentInterval> found;
+      cutter::FewSegmentIntervals found;
       sweep.walk(0.0, 100.0, found);
       EXPECT_TRUE(found.empty()) << share << ' ' << beside;
       EXPECT_LT(sweep.looks(), 200'000U) << share << ' ' << beside;
@@ -216,7 +216,7 @@ TEST(HollowCutterLaws, ShallowCutsAlongARayAreWalkedInFewSteps) {
   const Vec3 along = axis.cross(Vec3(0.6, 0.8, 0.1)).normalized();
   const Ray ray{tip + 5.0 * axis.cross(along) - 50.0 * along, along};
   const cutter::ConcaveSweep sweep(tool.body(), motion, ray);
-  std::vector<cutter::SegmentInterval> found;
+  cutter::FewSegmentIntervals found;
   sweep.walk(46.5, 50.0, found);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].lo.s, 46.5);
@@ -249,7 +249,7 @@ TEST(HollowCutterLaws, ToolsThatTurnLeaveARayInTheEndPlaneInFewLooks) {
             const Vec3 along = at.axis.cross(Vec3(0.6, 0.8, 0.1)).normalized();
             const Ray ray{at.tip + 5.0 * at.axis.cross(along) - 50.0 * along, along};
             const cutter::ConcaveSweep sweep(tool.body(), motion, ray);
-            std::vector<cutter::SegmentInterval> found;
+            cutter::FewSegmentIntervals found;
             sweep.walk(0.0, 120.0, found);
             most = std::max(most, sweep.looks());
             for (const cutter::SegmentInterval& i : found) {

@@ -38,9 +38,12 @@ std::vector<std::uint32_t> segments_under(const PoseTree& tree, std::uint32_t in
     const auto leaf = tree.segments().subspan(group.first, group.count);
     return {leaf.begin(), leaf.end()};
   }
-  std::vector<std::uint32_t> all = segments_under(tree, group.children);
-  const std::vector<std::uint32_t> more = segments_under(tree, group.children + 1);
-  all.insert(all.end(), more.begin(), more.end());
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t k = 0; k < kSiblings; ++k) {
+    if (tree.is_free(group.children + k)) continue;
+    const std::vector<std::uint32_t> more = segments_under(tree, group.children + k);
+    all.insert(all.end(), more.begin(), more.end());
+  }
   return all;
 }
 
@@ -74,9 +77,10 @@ TEST(EndGuardLaws, NothingIsCoveredBeyondWhatAGuardAllows) {
         const auto chord = body.parts()[part].chord(stands, ray);
         if (!chord) continue;
         const SeparatingPlane guard(body, ray, {chord->hi, part, chord->hi_face, stands}, true);
-        for (std::uint32_t index = 0; index < 2 * tree.pairs().size(); ++index) {
-          if (index == 1) continue;  // beside the root there is none
-          const double over = guard.overreach(tree.pairs()[index / 2]).most[index % 2];
+        for (std::uint32_t index = 0; index < kSiblings * tree.quads().size(); ++index) {
+          if (tree.is_free(index)) continue;
+          const double over =
+              guard.overreach(tree.quads()[index / kSiblings]).most[index % kSiblings];
           if (!std::isfinite(over)) continue;
           double most = -1e9;
           for (const std::uint32_t i : segments_under(tree, index)) {
@@ -111,9 +115,9 @@ TEST(EndFanLaws, NothingIsCoveredBeyondAnEndThatAFanHoldsBack) {
       std::vector<std::uint32_t> all(path.segments.size());
       std::iota(all.begin(), all.end(), 0U);
       const PoseTree tree(path, all, body);
-      std::vector<std::uint32_t> groups(2 * tree.pairs().size());
+      std::vector<std::uint32_t> groups(kSiblings * tree.quads().size());
       std::iota(groups.begin(), groups.end(), 0U);
-      groups.erase(groups.begin() + 1);  // beside the root there is none
+      std::erase_if(groups, [&](std::uint32_t index) { return tree.is_free(index); });
       const ToolPose& stands = path.poses[static_cast<std::size_t>(draw.below(49))];
       const Ray ray{stands.tip + draw.between(0.1, 0.9) * body.height() * stands.axis,
                     draw.direction()};
@@ -121,7 +125,7 @@ TEST(EndFanLaws, NothingIsCoveredBeyondAnEndThatAFanHoldsBack) {
       const auto chord = part.chord(stands, ray);
       if (!chord) continue;
       const SeparatingPlane plane(body, ray, {chord->hi, 0, chord->hi_face, stands}, true);
-      const EndFan fan(plane, tree.pairs(), groups);
+      const EndFan fan(plane, tree.quads(), groups);
       for (int beside = 0; beside < 8; ++beside) {
         const Vec3 place = ray.at(chord->hi) + draw.decades(1e-3, 3.0) * draw.direction();
         const Vec3 direction =
