@@ -12,8 +12,8 @@ EndFan::EndFan(const SeparatingPlane& plane, std::span<const GroupQuad> quads,
     // Its siblings are mostly the next.
     const std::uint32_t quad = groups[i] / kSiblings, lane = groups[i] % kSiblings;
     if (i == 0 || groups[i - 1] / kSiblings != quad) of_quad = plane.planes(quads[quad]);
-    planes_.push_back({of_quad.normal_of(lane), of_quad.height[lane] - of_quad.lost[lane],
-                       of_quad.turn[lane]});
+    planes_.push_back(
+        {of_quad.normal_of(lane), of_quad.height[lane] - of_quad.lost[lane], of_quad.turn[lane]});
   }
 }
 

@@ -40,12 +40,20 @@ struct GroupLimit {
 // Of the groups of a quad.
 using QuadLimit = std::array<GroupLimit, kSiblings>;
 
+// The segments of a leaf; in lanes from `count` on the first of them.
+struct LeafMotions {
+  std::array<std::uint32_t, kMostInLeaf> segments{};
+  MotionFour motions{};
+  std::size_t count = 0;
+};
+
 // What promises most comes first. The goal knows what it still wants:
 //   RaySpan span()            where on the ray
 //   QuadLimit limit(quad, in_box)  what do the ends found so far, by their planes, leave of the
 //                             groups, which are there on the ray?
 //   double room(segment, from, to)  do they leave nothing of the segment, which is between these
 //                             poses? Not if it is less than 0, the less the more is left
+//   DoubleFour rooms(leaf)    the same of the segments of a leaf
 //   RaySpan counted(reach)    what of a reach counts, slack and rounding considered
 //   bool wants(group, span)   could this, as it counts, still add anything?
 //   bool wants_lo(lo)         does it matter where a group begins whose representative begins
@@ -66,8 +74,7 @@ class GroupSearch {
         goal_(goal),
         parts_(sweep.body->parts()),
         quads_(sweep.tree.quads()),
-        in_box_(question.ray) {
-  }
+        in_box_(question.ray) {}
 
   // What is under one group; the root has number 0.
   void run(std::uint32_t group) {
@@ -296,20 +303,35 @@ class GroupSearch {
       double room;
       std::uint32_t segment;
     };
+    const LeafMotions leaf = motions_of(segments);
+    if (leaf.count == 0) return;
+    const DoubleFour rooms = goal_.rooms(leaf);
     std::array<Open, kMostInLeaf> open;
     std::size_t count = 0;
-    for (const std::uint32_t segment : segments) {
-      if (segment >= question_.first_excluded) continue;
-      const double room = room_of(segment);
+    for (std::size_t lane = 0; lane < leaf.count; ++lane) {
+      const double room = rooms[lane];
       if (room >= 0.0) continue;
       std::size_t at = count++;
       for (; at > 0 && open[at - 1].room > room; --at) open[at] = open[at - 1];
-      open[at] = {room, segment};
+      open[at] = {room, leaf.segments[lane]};
     }
     const int change = goal_.change();
     for (std::size_t i = 0; i < count; ++i) {
       if (goal_.change() == change || room_of(open[i].segment) < 0.0) solve(index, open[i].segment);
     }
+  }
+
+  [[nodiscard]] LeafMotions motions_of(std::span<const std::uint32_t> segments) const {
+    const kinematics::ToolPath& path = *question_.path;
+    LeafMotions leaf;
+    for (const std::uint32_t segment : segments) {
+      if (segment < question_.first_excluded) leaf.segments[leaf.count++] = segment;
+    }
+    for (std::size_t lane = 0; lane < kMostInLeaf && leaf.count > 0; ++lane) {
+      const auto& segment = path.segments[leaf.segments[lane < leaf.count ? lane : 0]];
+      leaf.motions.set(lane, path.from(segment), path.to(segment));
+    }
+    return leaf;
   }
 
   [[nodiscard]] SegmentMotion motion_of(std::uint32_t segment) const {
@@ -324,7 +346,8 @@ class GroupSearch {
   void solve(std::uint32_t group, std::uint32_t segment) {
     const SegmentMotion motion = motion_of(segment);
     if ((Goal::kSolvesWhole || goal_.change() == 0) && is_away(group, motion)) return;
-    if (!Goal::kSolvesWhole) fetch(&question_.path->blocks[question_.path->segments[segment].block], 1);
+    if (!Goal::kSolvesWhole)
+      fetch(&question_.path->blocks[question_.path->segments[segment].block], 1);
     solve_parts(segment, motion);
     const auto sections = sweep_.body->sections();
     if (parts_.size() == sections.size()) return;

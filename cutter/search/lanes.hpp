@@ -56,6 +56,12 @@ FRUSTUM_OF_LANES Lanes lanes_of(const FloatFour& numbers, std::size_t from) {
   return lanes;
 }
 template <class Lanes>
+FRUSTUM_OF_LANES Lanes lanes_of(const DoubleFour& numbers, std::size_t from) {
+  Lanes lanes;
+  for (std::size_t k = 0; k < kLanes<Lanes>; ++k) lanes[k] = numbers[from + k];
+  return lanes;
+}
+template <class Lanes>
 FRUSTUM_OF_LANES void store(Lanes lanes, std::size_t from, DoubleFour& numbers) {
   for (std::size_t k = 0; k < kLanes<Lanes>; ++k) numbers[from + k] = lanes[k];
 }
@@ -108,8 +114,8 @@ template <class Lanes>
 FRUSTUM_OF_LANES LanesVec<Lanes> vec_of(const Vec3& v) {
   return {lanes_of<Lanes>(v.x()), lanes_of<Lanes>(v.y()), lanes_of<Lanes>(v.z())};
 }
-template <class Lanes>
-FRUSTUM_OF_LANES LanesVec<Lanes> vec_of(const std::array<FloatFour, 3>& v, std::size_t from) {
+template <class Lanes, class Numbers>
+FRUSTUM_OF_LANES LanesVec<Lanes> vec_of(const std::array<Numbers, 3>& v, std::size_t from) {
   return {lanes_of<Lanes>(v[0], from), lanes_of<Lanes>(v[1], from), lanes_of<Lanes>(v[2], from)};
 }
 

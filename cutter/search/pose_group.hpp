@@ -35,7 +35,7 @@ struct PoseGroup {
   // One of the segments: where it begins is the group's representative.
   std::uint32_t representative_segment = 0;
   std::uint32_t representative_pose = 0;  // of the path
-  std::uint32_t earliest = 0;  // the first of the segments in program order
+  std::uint32_t earliest = 0;             // the first of the segments in program order
   std::uint32_t first = 0;     // a leaf's segments: PoseTree::segments(), first and count
   std::uint32_t count = 0;     // 0: not a leaf
   std::uint32_t children = 0;  // not of a leaf: the first of kSiblings groups, side by side

@@ -31,8 +31,8 @@ class PoseTree {
   // Over `segments` of the path, which the body moves through.
   PoseTree(const kinematics::ToolPath& path, std::vector<std::uint32_t> segments, const Body& body);
 
-  // Group i is lane i % 4 of quad i / 4. The first is the root, which has no siblings. Empty without
-  // segments.
+  // Group i is lane i % 4 of quad i / 4. The first is the root, which has no siblings. Without
+  // segments there is none.
   [[nodiscard]] std::span<const GroupQuad> quads() const { return quads_; }
   [[nodiscard]] bool is_free(std::uint32_t index) const {
     return quads_[index / kSiblings].is_free(index % kSiblings);

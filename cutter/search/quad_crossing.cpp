@@ -12,9 +12,11 @@ FRUSTUM_OF_LANES void cross(const GroupQuad& groups, std::size_t from, const Vec
   for (std::size_t k = 0; k < 3; ++k) {
     const auto d = static_cast<Eigen::Index>(k);
     const Lanes a =
-        (lanes_of<Lanes>(groups.box_min[k], from) - (origin[d] + BoxCrossing::kMargin)) * inverse[d];
+        (lanes_of<Lanes>(groups.box_min[k], from) - (origin[d] + BoxCrossing::kMargin)) *
+        inverse[d];
     const Lanes b =
-        (lanes_of<Lanes>(groups.box_max[k], from) - (origin[d] - BoxCrossing::kMargin)) * inverse[d];
+        (lanes_of<Lanes>(groups.box_max[k], from) - (origin[d] - BoxCrossing::kMargin)) *
+        inverse[d];
     lo = larger(lo, smaller(a, b));
     hi = smaller(hi, larger(a, b));
   }

@@ -70,6 +70,15 @@ class WholeSweptInterval {
     })[0];
     return held ? 0.0 : -1.0;
   }
+  [[nodiscard]] DoubleFour rooms(const LeafMotions& leaf) {
+    const Held held = between([&](const SeparatingPlane& end) {
+      const DoubleFour room = end.rooms(leaf.motions, kSearchTolerance);
+      return Held{room[0] >= 0.0, room[1] >= 0.0, room[2] >= 0.0, room[3] >= 0.0};
+    });
+    DoubleFour rooms;
+    for (std::size_t k = 0; k < kSiblings; ++k) rooms[k] = held[k] ? 0.0 : -1.0;
+    return rooms;
+  }
 
   [[nodiscard]] std::span<const Chord> known() {
     known_.clear();
@@ -182,6 +191,14 @@ class Front {
   [[nodiscard]] double room(std::uint32_t segment, const ToolPose& from, const ToolPose& to) {
     if (change_ == 0) return -kInfinity;
     return segment == solved_ ? 0.0 : plane().room(from, to);
+  }
+  [[nodiscard]] DoubleFour rooms(const LeafMotions& leaf) {
+    if (change_ == 0) return four_of(-kInfinity);
+    DoubleFour rooms = plane().rooms(leaf.motions, kSearchTolerance);
+    for (std::size_t lane = 0; lane < leaf.count; ++lane) {
+      if (leaf.segments[lane] == solved_) rooms[lane] = 0.0;
+    }
+    return rooms;
   }
 
   [[nodiscard]] std::span<const Chord> known() {

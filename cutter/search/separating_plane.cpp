@@ -12,6 +12,12 @@ namespace {
 // Nearer to the axis than this (mm) there is no meridian to speak of.
 constexpr double kOnAxis = 1e-9;
 
+// Motions that turn by more have no proof (rad).
+constexpr double kFarTurned = 0.05;
+// From its chord the axis is never farther than turn^2 / 8, and 1.01 is more than the turn has over
+// the chord.
+constexpr double kAxisBend = 1.01 / 8.0;
+
 // Axial part of the outward normal of a zone at one of its ends.
 double axial_at(const Zone& zone, double height) {
   if (zone.kind == ZoneKind::cone) return -zone.slope / std::hypot(1.0, zone.slope);
@@ -249,9 +255,50 @@ struct SeparatingPlane::OfLanes {
     store(at.in_the_middle, from, over.height);
     store(kRounding / fall, from, over.rounding);
   }
+
+  // What the height over a plane loses by a straight motion, and by turning.
+  FRUSTUM_OF_LANES static Lanes lost(const Planes& at, const LaneVec& m, const LaneVec& step,
+                                     const LaneVec& turn) {
+    const LaneVec by_axis = at.lateral * at.across.cross(m) + at.axial * m;
+    return at.normal.dot(step) - by_axis.dot(turn);
+  }
+  // As SeparatingPlane::room().
+  FRUSTUM_OF_LANES static void rooms(const SeparatingPlane& plane, const MotionFour& motions,
+                                     double slack, std::size_t from, DoubleFour& rooms) {
+    const LaneVec from_tip = vec_of<Lanes>(motions.from_tip, from),
+                  from_axis = vec_of<Lanes>(motions.from_axis, from),
+                  to_tip = vec_of<Lanes>(motions.to_tip, from),
+                  to_axis = vec_of<Lanes>(motions.to_axis, from);
+    const LaneVec end = all(plane.end_), beyond = all(plane.beyond_);
+    const LaneVec m_here = end - from_tip, m_there = end - to_tip;
+    const Planes at_here = touching(plane, m_here, from_axis);
+    const Planes at_there = touching(plane, m_there, to_axis);
+    const LaneVec step = to_tip - from_tip, turn = to_axis - from_axis;
+    const Lanes way = square_root(step.dot(step)), chord2 = turn.dot(turn);
+    const Lanes chord = square_root(chord2);
+    const Lanes bend = kAxisBend * chord2 * (square_root(m_here.dot(m_here)) + 2.0 * way);
+    const Lanes height_here = at_here.height + slack, height_there = at_there.height + slack;
+    const Lanes here = height_here - bend, there = height_there - bend;
+    const Lanes here_there = here - way * chord - lost(at_here, m_here, step, turn);
+    const Lanes there_here = there - way * chord + lost(at_there, m_there, step, turn);
+    const Lanes best = larger(here_there, there_here), least = smaller(here, there);
+    const Lanes none = all(0.0), unknown = all(-std::numeric_limits<double>::infinity());
+    Lanes room = here * there - here_there * there_here >= none ? none : best;
+    room = best >= none ? none : room;
+    room = least < none ? least : room;
+    room = at_here.normal.dot(beyond) > chord ? room : unknown;
+    room = at_there.normal.dot(beyond) > chord ? room : unknown;
+    room = chord2 > all(kFarTurned * kFarTurned) ? unknown : room;
+    const Lanes lower = smaller(height_here, height_there);
+    store(lower < none ? lower : room, from, rooms);
+  }
 };
 
 #ifdef FRUSTUM_HAS_FOUR_LANES
+FRUSTUM_FOUR_LANES void SeparatingPlane::rooms_four(const MotionFour& motions, double slack,
+                                                    DoubleFour& rooms) const {
+  OfLanes<Four>::rooms(*this, motions, slack, 0, rooms);
+}
 FRUSTUM_FOUR_LANES void SeparatingPlane::planes_four(const GroupQuad& groups,
                                                      QuadPlanes& all) const {
   OfLanes<Four>::planes(*this, groups, 0, all);
@@ -289,6 +336,20 @@ Overreach SeparatingPlane::overreach(const GroupQuad& groups, double slack) cons
   return over;
 }
 
+DoubleFour SeparatingPlane::rooms(const MotionFour& motions, double slack) const {
+  if (body_ == nullptr) return four_of(-std::numeric_limits<double>::infinity());
+  DoubleFour rooms;
+#ifdef FRUSTUM_HAS_FOUR_LANES
+  if (has_four_lanes()) {
+    rooms_four(motions, slack, rooms);
+    return rooms;
+  }
+#endif
+  OfLanes<Both>::rooms(*this, motions, slack, 0, rooms);
+  OfLanes<Both>::rooms(*this, motions, slack, 2, rooms);
+  return rooms;
+}
+
 double SeparatingPlane::along(const ToolPose& pose) const {
   if (body_ == nullptr) return 0.0;
   using Pose = OfLanes<Both>;
@@ -313,16 +374,13 @@ double SeparatingPlane::room(const ToolPose& from, const ToolPose& to, double sl
   Both lost = Both{1.0, -1.0} * at.normal.dot(Poses::all(step));
   double bend = 0.0, chord = 0.0;
   if (turn != Vec3::Zero()) {
-    constexpr double kFarTurned = 0.05;
     const double chord2 = turn.squaredNorm();
     if (chord2 > kFarTurned * kFarTurned) return kUnknown;
     chord = std::sqrt(chord2);
     const LanesVec<Both> by_axis = at.lateral * at.across.cross(m) + at.axial * m;
     lost = lost - Both{1.0, -1.0} * by_axis.dot(Poses::all(turn)) + step.norm() * chord;
-    // From its chord the axis is never farther than turn^2 / 8, and 1.01 is more than the turn has
-    // over the chord.
     const Vec3 from_tip = end_ - from.tip;
-    bend = 1.01 / 8.0 * chord2 * (from_tip.norm() + 2.0 * step.norm());
+    bend = kAxisBend * chord2 * (from_tip.norm() + 2.0 * step.norm());
   }
   const Both fall = at.normal.dot(Poses::all(beyond_));
   if (!(fall[0] > chord) || !(fall[1] > chord)) return kUnknown;

@@ -52,6 +52,21 @@ struct QuadPlanes {
   }
 };
 
+// Four motions of a cutter from pose to pose, side by side.
+struct MotionFour {
+  std::array<DoubleFour, 3> from_tip{}, from_axis{}, to_tip{}, to_axis{};
+
+  void set(std::size_t lane, const ToolPose& from, const ToolPose& to) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto d = static_cast<Eigen::Index>(k);
+      from_tip[k][lane] = from.tip[d];
+      from_axis[k][lane] = from.axis[d];
+      to_tip[k][lane] = to.tip[d];
+      to_axis[k][lane] = to.axis[d];
+    }
+  }
+};
+
 class SeparatingPlane {
  public:
   // Holds nothing back: for ends that no convex section makes.
@@ -82,6 +97,8 @@ class SeparatingPlane {
   // is less than 0.
   [[nodiscard]] double room(const ToolPose& from, const ToolPose& to,
                             double slack = kSearchTolerance) const;
+  // The same of four.
+  [[nodiscard]] DoubleFour rooms(const MotionFour& motions, double slack) const;
   [[nodiscard]] bool holds(const ToolPose& from, const ToolPose& to,
                            double slack = kSearchTolerance) const {
     return room(from, to, slack) >= 0.0;
@@ -96,6 +113,8 @@ class SeparatingPlane {
   struct OfLanes;
 #ifdef FRUSTUM_HAS_FOUR_LANES
   FRUSTUM_FOUR_LANES void planes_four(const GroupQuad& groups, QuadPlanes& all) const;
+  FRUSTUM_FOUR_LANES void rooms_four(const MotionFour& motions, double slack,
+                                     DoubleFour& rooms) const;
   FRUSTUM_FOUR_LANES void overreach_four(const GroupQuad& groups, double slack,
                                          Overreach& over) const;
 #endif

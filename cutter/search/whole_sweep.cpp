@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace frustum::cutter {
 namespace {
@@ -16,6 +17,8 @@ constexpr double kPoseRounding = 1e-11;
 // share of kSearchTolerance: 1e-12 mm.
 constexpr double kBoundRounding = 1e-11;
 constexpr double kRoundingShare = 0.0025;
+// So much before an end a segment does not win it, however late or early it is (mm, as a slack).
+constexpr double kWellBefore = -1.01 * kSearchTolerance;
 // Below this cosine between the ray and a plane its rounding is too much along the ray.
 constexpr double kGrazingEnd = 0.02;
 
@@ -95,9 +98,9 @@ bool WholeSweep::wants(std::uint32_t group, const RaySpan& counted) const {
   if (!(std::max(lo, span().lo) <= std::min(hi, span().hi))) return false;
   const std::uint32_t earliest = quads_[group / kSiblings].earliest[group % kSiblings];
   for (const Piece& c : pieces_) {
+    if (!(lo <= c.hi.at.s && hi >= c.lo.at.s)) continue;
     const bool held = (c.hi.at.s >= span().hi || behind(hi, earliest, c.hi, true)) &&
-                      (c.lo.at.s <= span().lo || behind(-lo, earliest, c.lo, false)) &&
-                      lo <= c.hi.at.s && hi >= c.lo.at.s;
+                      (c.lo.at.s <= span().lo || behind(-lo, earliest, c.lo, false));
     if (held) return false;
   }
   return true;
@@ -132,8 +135,9 @@ WholeSweep::Held WholeSweep::held_by(End& end, const GroupQuad& groups, bool lea
   return held;
 }
 
-bool WholeSweep::held_by(End& end, std::uint32_t segment, const ToolPose& from, const ToolPose& to,
-                         bool leaving) const {
+bool WholeSweep::held_by(End& end, std::uint32_t segment, bool leaving) const {
+  const auto& at = question_.path->segments[segment];
+  const ToolPose &from = question_.path->from(at), &to = question_.path->to(at);
   if (end.solved && segment == end.at.segment) return true;
   constexpr double kRounding = kRoundingShare * kSearchTolerance;
   const SeparatingPlane& plane = plane_at(end, leaving);
@@ -144,7 +148,7 @@ bool WholeSweep::held_by(End& end, std::uint32_t segment, const ToolPose& from, 
       return plane.holds(from, to, kRounding);
     }
   }
-  return plane.holds(from, to, -1.01 * kSearchTolerance);
+  return plane.holds(from, to, kWellBefore);
 }
 
 QuadLimit WholeSweep::limit(const GroupQuad& groups, const QuadSpan& in_box) {
@@ -185,12 +189,40 @@ QuadLimit WholeSweep::limit(const GroupQuad& groups, const QuadSpan& in_box) {
   return limits;
 }
 
-double WholeSweep::room(std::uint32_t segment, const ToolPose& from, const ToolPose& to) {
+double WholeSweep::room(std::uint32_t segment, const ToolPose&, const ToolPose&) {
   const bool held = std::ranges::any_of(pieces_, [&](Piece& c) {
-    return (c.hi.at.s >= span().hi || held_by(c.hi, segment, from, to, true)) &&
-           (c.lo.at.s <= span().lo || held_by(c.lo, segment, from, to, false));
+    return (c.hi.at.s >= span().hi || held_by(c.hi, segment, true)) &&
+           (c.lo.at.s <= span().lo || held_by(c.lo, segment, false));
   });
   return held ? 0.0 : -1.0;
+}
+
+WholeSweep::HeldLanes WholeSweep::held_by(End& end, const LeafMotions& leaf, bool leaving) const {
+  const DoubleFour rooms = plane_at(end, leaving).rooms(leaf.motions, kWellBefore);
+  HeldLanes held{};
+  for (std::size_t lane = 0; lane < leaf.count; ++lane) {
+    const std::uint32_t segment = leaf.segments[lane];
+    held[lane] = rooms[lane] >= 0.0 || (end.solved && segment == end.at.segment) ||
+                 (segment > end.at.segment && held_by(end, segment, leaving));
+  }
+  return held;
+}
+
+DoubleFour WholeSweep::rooms(const LeafMotions& leaf) {
+  DoubleFour rooms = four_of(-1.0);
+  for (Piece& c : pieces_) {
+    HeldLanes held{true, true, true, true};
+    if (c.hi.at.s < span().hi) held = held_by(c.hi, leaf, true);
+    if (std::ranges::none_of(held, std::identity())) continue;
+    if (c.lo.at.s > span().lo) {
+      const HeldLanes by_lo = held_by(c.lo, leaf, false);
+      for (std::size_t lane = 0; lane < kSiblings; ++lane) held[lane] = held[lane] && by_lo[lane];
+    }
+    for (std::size_t lane = 0; lane < kSiblings; ++lane) {
+      if (held[lane]) rooms[lane] = 0.0;
+    }
+  }
+  return rooms;
 }
 
 std::span<const Chord> WholeSweep::known() {

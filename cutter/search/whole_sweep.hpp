@@ -63,6 +63,7 @@ class WholeSweep {
   [[nodiscard]] bool wants_piece(std::uint32_t group, double lo, double hi) const;
   [[nodiscard]] QuadLimit limit(const GroupQuad& groups, const QuadSpan& in_box);
   [[nodiscard]] double room(std::uint32_t segment, const ToolPose& from, const ToolPose& to);
+  [[nodiscard]] DoubleFour rooms(const LeafMotions& leaf);
   [[nodiscard]] std::span<const Chord> known();
   // Solutions of ends that may count do not depend on what is covered already: an end is left
   // inexact only where it is well inside.
@@ -92,8 +93,9 @@ class WholeSweep {
     [[nodiscard]] bool any() const { return holds[0] || holds[1] || holds[2] || holds[3]; }
   };
   [[nodiscard]] Held held_by(End& end, const GroupQuad& groups, bool leaving) const;
-  [[nodiscard]] bool held_by(End& end, std::uint32_t segment, const ToolPose& from,
-                             const ToolPose& to, bool leaving) const;
+  using HeldLanes = std::array<bool, kSiblings>;
+  [[nodiscard]] HeldLanes held_by(End& end, const LeafMotions& leaf, bool leaving) const;
+  [[nodiscard]] bool held_by(End& end, std::uint32_t segment, bool leaving) const;
   const SeparatingPlane& plane_at(End& end, bool leaving) const;
 
   const RayQuestion& question_;
