@@ -2,7 +2,7 @@
 // of two or four groups.
 //
 // Model    : what is written for lanes is compiled for two of them, which every processor has, and
-//            for four; which of both runs is chosen when the program runs (has_four_lanes())
+//            for four; which of both runs is chosen when the program runs
 // Units    : of the numbers
 // Errors   : none
 // Accuracy : every operation rounds as it does for one number: the same bits on every machine
@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/pose.hpp"
 
@@ -26,11 +27,14 @@ namespace frustum::cutter {
 using Both = double __attribute__((vector_size(16)));
 using Four = double __attribute__((vector_size(32)));
 
-// Whether this processor counts with four at once.
-[[nodiscard]] inline bool has_four_lanes() {
+// `two`: for tests, as on processors that have no more.
+enum class LaneChoice : std::uint8_t { best, two };
+
+// Whether four are counted with at once: where this processor does so, unless two are wanted.
+[[nodiscard]] inline bool has_four_lanes([[maybe_unused]] LaneChoice lanes) {
 #ifdef FRUSTUM_HAS_FOUR_LANES
   static const bool has = __builtin_cpu_supports("avx2") != 0;
-  return has;
+  return has && lanes == LaneChoice::best;
 #else
   return false;
 #endif

@@ -37,10 +37,11 @@ QuadCrossing::QuadCrossing(const Ray& ray) : origin_(ray.origin) {
   for (int k = 0; k < 3; ++k) inverse_[k] = BoxCrossing::inverse_of(ray.direction[k]);
 }
 
-QuadSpan QuadCrossing::within(const GroupQuad& groups, const RaySpan& span) const {
+QuadSpan QuadCrossing::within(const GroupQuad& groups, const RaySpan& span,
+                              LaneChoice lanes) const {
   QuadSpan in;
 #ifdef FRUSTUM_HAS_FOUR_LANES
-  if (has_four_lanes()) {
+  if (has_four_lanes(lanes)) {
     cross_four(groups, origin_, inverse_, span, in);
     return in;
   }

@@ -18,7 +18,8 @@ struct QuadSpan {
 class QuadCrossing {
  public:
   explicit QuadCrossing(const Ray& ray);
-  [[nodiscard]] QuadSpan within(const GroupQuad& groups, const RaySpan& span) const;
+  [[nodiscard]] QuadSpan within(const GroupQuad& groups, const RaySpan& span,
+                                LaneChoice lanes = LaneChoice::best) const;
 
  private:
   Vec3 origin_;

@@ -309,10 +309,10 @@ FRUSTUM_FOUR_LANES void SeparatingPlane::overreach_four(const GroupQuad& groups,
 }
 #endif
 
-QuadPlanes SeparatingPlane::planes(const GroupQuad& groups) const {
+QuadPlanes SeparatingPlane::planes(const GroupQuad& groups, LaneChoice lanes) const {
   QuadPlanes all;
 #ifdef FRUSTUM_HAS_FOUR_LANES
-  if (has_four_lanes()) {
+  if (has_four_lanes(lanes)) {
     planes_four(groups, all);
     return all;
   }
@@ -322,11 +322,12 @@ QuadPlanes SeparatingPlane::planes(const GroupQuad& groups) const {
   return all;
 }
 
-Overreach SeparatingPlane::overreach(const GroupQuad& groups, double slack) const {
+Overreach SeparatingPlane::overreach(const GroupQuad& groups, double slack,
+                                     LaneChoice lanes) const {
   if (body_ == nullptr) return {};
   Overreach over;
 #ifdef FRUSTUM_HAS_FOUR_LANES
-  if (has_four_lanes()) {
+  if (has_four_lanes(lanes)) {
     overreach_four(groups, slack, over);
     return over;
   }
@@ -336,11 +337,11 @@ Overreach SeparatingPlane::overreach(const GroupQuad& groups, double slack) cons
   return over;
 }
 
-DoubleFour SeparatingPlane::rooms(const MotionFour& motions, double slack) const {
+DoubleFour SeparatingPlane::rooms(const MotionFour& motions, double slack, LaneChoice lanes) const {
   if (body_ == nullptr) return four_of(-std::numeric_limits<double>::infinity());
   DoubleFour rooms;
 #ifdef FRUSTUM_HAS_FOUR_LANES
-  if (has_four_lanes()) {
+  if (has_four_lanes(lanes)) {
     rooms_four(motions, slack, rooms);
     return rooms;
   }

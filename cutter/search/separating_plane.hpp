@@ -85,11 +85,13 @@ class SeparatingPlane {
   // Unit, along the ray, away from what is covered.
   [[nodiscard]] const Vec3& beyond() const { return beyond_; }
   // Precondition: has_proof().
-  [[nodiscard]] QuadPlanes planes(const GroupQuad& groups) const;
+  [[nodiscard]] QuadPlanes planes(const GroupQuad& groups,
+                                  LaneChoice lanes = LaneChoice::best) const;
 
   // `slack`: so much beyond the plane, normal to it, does not count (mm). Negative: the proof is
   // that the cutter stays so much before the end.
-  [[nodiscard]] Overreach overreach(const GroupQuad& groups, double slack = kSearchTolerance) const;
+  [[nodiscard]] Overreach overreach(const GroupQuad& groups, double slack = kSearchTolerance,
+                                    LaneChoice lanes = LaneChoice::best) const;
   // Cosine between the ray and the plane's normal when the body is at the pose; 0: no plane.
   [[nodiscard]] double along(const ToolPose& pose) const;
   // The end is at least so far beyond the plane (mm) while the body moves from pose to pose; if it
@@ -98,7 +100,8 @@ class SeparatingPlane {
   [[nodiscard]] double room(const ToolPose& from, const ToolPose& to,
                             double slack = kSearchTolerance) const;
   // The same of four.
-  [[nodiscard]] DoubleFour rooms(const MotionFour& motions, double slack) const;
+  [[nodiscard]] DoubleFour rooms(const MotionFour& motions, double slack,
+                                 LaneChoice lanes = LaneChoice::best) const;
   [[nodiscard]] bool holds(const ToolPose& from, const ToolPose& to,
                            double slack = kSearchTolerance) const {
     return room(from, to, slack) >= 0.0;

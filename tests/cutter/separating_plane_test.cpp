@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 
 #include "cutter/search/end_fan.hpp"
@@ -148,6 +149,57 @@ TEST(EndFanLaws, NothingIsCoveredBeyondAnEndThatAFanHoldsBack) {
   }
   EXPECT_GT(held, 1000);
   EXPECT_GT(open, 1000);
+}
+
+template <class T>
+bool are_same_bits(const T& a, const T& b) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  return std::memcmp(&a, &b, sizeof(T)) == 0;
+}
+
+// Of all groups and leaves of random paths, at ends that all kinds of cutters make.
+TEST(Lanes, TwoAndFourMakeTheSameBits) {
+  std::size_t quads = 0;
+  for (const proof::Kind& kind : proof::cutter_kinds()) {
+    const Body& body = kind.cutter.body();
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+      Draw draw(seed);
+      const ToolPath path = swaying(draw, 48);
+      std::vector<std::uint32_t> all(path.segments.size());
+      std::iota(all.begin(), all.end(), 0U);
+      const PoseTree tree(path, all, body);
+      const ToolPose& stands = path.poses[static_cast<std::size_t>(draw.below(49))];
+      const Ray ray{stands.tip + draw.between(0.1, 0.9) * body.height() * stands.axis,
+                    draw.direction()};
+      const QuadCrossing crossing(ray);
+      for (const GroupQuad& quad : tree.quads()) {
+        EXPECT_TRUE(are_same_bits(crossing.within(quad, {-9.0, 20.0}),
+                                  crossing.within(quad, {-9.0, 20.0}, LaneChoice::two)));
+      }
+      const auto chord = body.parts().front().chord(stands, ray);
+      if (!chord) continue;
+      const SeparatingPlane plane(body, ray, {chord->hi, 0, chord->hi_face, stands}, true);
+      for (const GroupQuad& quad : tree.quads()) {
+        ++quads;
+        EXPECT_TRUE(are_same_bits(plane.planes(quad), plane.planes(quad, LaneChoice::two)));
+        EXPECT_TRUE(
+            are_same_bits(plane.overreach(quad, 0.0), plane.overreach(quad, 0.0, LaneChoice::two)));
+      }
+      for (std::size_t i = 0; i + 4 < path.poses.size(); i += 4) {
+        MotionFour motions;
+        for (std::size_t k = 0; k < 4; ++k)
+          motions.set(k, path.poses[i + k], path.poses[i + k + 1]);
+        const DoubleFour rooms = plane.rooms(motions, kSearchTolerance);
+        EXPECT_TRUE(are_same_bits(rooms, plane.rooms(motions, kSearchTolerance, LaneChoice::two)));
+        for (std::size_t k = 0; k < 4; ++k) {
+          const double one = plane.room(path.poses[i + k], path.poses[i + k + 1]);
+          if (one == rooms[k]) continue;  // infinite ones, too
+          EXPECT_NEAR(one, rooms[k], 1e-11) << kind.name << ' ' << seed;
+        }
+      }
+    }
+  }
+  EXPECT_GT(quads, 300U);
 }
 
 }  // namespace
