@@ -19,9 +19,8 @@ function(frustum_module name)
     # Inlined as far as it goes, which what comes out of precompiled headers, made for -O2, is not.
     add_library(${room}_hot OBJECT ${ROOM_HOT})
     frustum_unity(${room}_hot 5 ${ROOM_HOT})
-    # Nothing reads errno. Vectors of four doubles are never passed to what is not inlined.
-    target_compile_options(${room}_hot PRIVATE $<$<CONFIG:Release>:-O3> -fno-math-errno
-                                               $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>)
+    # Nothing reads errno: roots of several numbers are one instruction then.
+    target_compile_options(${room}_hot PRIVATE $<$<CONFIG:Release>:-O3> -fno-math-errno)
     target_include_directories(${room}_hot PRIVATE "${PROJECT_SOURCE_DIR}")
     target_link_libraries(${room}_hot PRIVATE ${ROOM_USES} frustum_flags ${ROOM_PRIVATE_USES})
     target_sources(${room} PRIVATE $<TARGET_OBJECTS:${room}_hot>)

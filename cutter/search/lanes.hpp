@@ -20,6 +20,8 @@
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define FRUSTUM_HAS_FOUR_LANES
 #define FRUSTUM_FOUR_LANES [[gnu::target("avx2")]]
+// What passes four lanes is always inlined: how they would be passed does not matter.
+#pragma GCC diagnostic ignored "-Wpsabi"
 #endif
 
 namespace frustum::cutter {
