@@ -38,7 +38,7 @@ QuadCrossing::QuadCrossing(const Ray& ray) : origin_(ray.origin) {
 }
 
 QuadSpan QuadCrossing::within(const GroupQuad& groups, const RaySpan& span,
-                              LaneChoice lanes) const {
+                              [[maybe_unused]] LaneChoice lanes) const {
   QuadSpan in;
 #ifdef FRUSTUM_HAS_FOUR_LANES
   if (has_four_lanes(lanes)) {

@@ -309,7 +309,8 @@ FRUSTUM_FOUR_LANES void SeparatingPlane::overreach_four(const GroupQuad& groups,
 }
 #endif
 
-QuadPlanes SeparatingPlane::planes(const GroupQuad& groups, LaneChoice lanes) const {
+QuadPlanes SeparatingPlane::planes(const GroupQuad& groups,
+                                   [[maybe_unused]] LaneChoice lanes) const {
   QuadPlanes all;
 #ifdef FRUSTUM_HAS_FOUR_LANES
   if (has_four_lanes(lanes)) {
@@ -323,7 +324,7 @@ QuadPlanes SeparatingPlane::planes(const GroupQuad& groups, LaneChoice lanes) co
 }
 
 Overreach SeparatingPlane::overreach(const GroupQuad& groups, double slack,
-                                     LaneChoice lanes) const {
+                                     [[maybe_unused]] LaneChoice lanes) const {
   if (body_ == nullptr) return {};
   Overreach over;
 #ifdef FRUSTUM_HAS_FOUR_LANES
@@ -337,7 +338,8 @@ Overreach SeparatingPlane::overreach(const GroupQuad& groups, double slack,
   return over;
 }
 
-DoubleFour SeparatingPlane::rooms(const MotionFour& motions, double slack, LaneChoice lanes) const {
+DoubleFour SeparatingPlane::rooms(const MotionFour& motions, double slack,
+                                  [[maybe_unused]] LaneChoice lanes) const {
   if (body_ == nullptr) return four_of(-std::numeric_limits<double>::infinity());
   DoubleFour rooms;
 #ifdef FRUSTUM_HAS_FOUR_LANES

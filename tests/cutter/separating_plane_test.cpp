@@ -6,9 +6,11 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
+#include <type_traits>
 
 #include "cutter/search/end_fan.hpp"
 #include "cutter/search/pose_tree.hpp"
+#include "cutter/search/quad_crossing.hpp"
 #include "tests/cutter/cutter_kinds.hpp"
 #include "tests/cutter/random_paths.hpp"
 
