@@ -35,6 +35,31 @@ ToolPath swaying(Draw& draw, int strokes) {
   return proof::path_through(poses);
 }
 
+// A body on such a way, and a ray through it where it stands at one of the poses.
+struct Swaying {
+  Swaying(Draw& draw, const Body& body)
+      : path(swaying(draw, 48)),
+        tree(path, all_segments(path), body),
+        stands(path.poses[static_cast<std::size_t>(draw.below(49))]),
+        ray(through(draw, body, stands)) {}
+
+  ToolPath path;
+  PoseTree tree;
+  ToolPose stands;
+  Ray ray;
+
+ private:
+  static std::vector<std::uint32_t> all_segments(const ToolPath& path) {
+    std::vector<std::uint32_t> all(path.segments.size());
+    std::iota(all.begin(), all.end(), 0U);
+    return all;
+  }
+  static Ray through(Draw& draw, const Body& body, const ToolPose& stands) {
+    const Vec3 origin = stands.tip + draw.between(0.1, 0.9) * body.height() * stands.axis;
+    return {origin, draw.direction()};
+  }
+};
+
 // Of a group and all that is under it.
 std::vector<std::uint32_t> segments_under(const PoseTree& tree, std::uint32_t index) {
   const PoseGroup group = tree.group(index);
@@ -70,13 +95,8 @@ TEST(EndGuardLaws, NothingIsCoveredBeyondWhatAGuardAllows) {
     const Body& body = kind.cutter.body();
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
       Draw draw(seed);
-      const ToolPath path = swaying(draw, 48);
-      std::vector<std::uint32_t> all(path.segments.size());
-      std::iota(all.begin(), all.end(), 0U);
-      const PoseTree tree(path, all, body);
-      const ToolPose& stands = path.poses[static_cast<std::size_t>(draw.below(49))];
-      const Ray ray{stands.tip + draw.between(0.1, 0.9) * body.height() * stands.axis,
-                    draw.direction()};
+      const Swaying scene(draw, body);
+      const auto& [path, tree, stands, ray] = scene;
       for (std::uint32_t part = 0; part < body.parts().size(); ++part) {
         const auto chord = body.parts()[part].chord(stands, ray);
         if (!chord) continue;
@@ -115,16 +135,11 @@ TEST(EndFanLaws, NothingIsCoveredBeyondAnEndThatAFanHoldsBack) {
     const Body& body = kind.cutter.body();
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
       Draw draw(seed);
-      const ToolPath path = swaying(draw, 48);
-      std::vector<std::uint32_t> all(path.segments.size());
-      std::iota(all.begin(), all.end(), 0U);
-      const PoseTree tree(path, all, body);
+      const Swaying scene(draw, body);
+      const auto& [path, tree, stands, ray] = scene;
       std::vector<std::uint32_t> groups(kSiblings * tree.quads().size());
       std::iota(groups.begin(), groups.end(), 0U);
       std::erase_if(groups, [&](std::uint32_t index) { return tree.is_free(index); });
-      const ToolPose& stands = path.poses[static_cast<std::size_t>(draw.below(49))];
-      const Ray ray{stands.tip + draw.between(0.1, 0.9) * body.height() * stands.axis,
-                    draw.direction()};
       const Profile& part = body.parts().front();
       const auto chord = part.chord(stands, ray);
       if (!chord) continue;
@@ -172,13 +187,8 @@ TEST(Lanes, TwoAndFourMakeTheSameNumbers) {
     const Body& body = kind.cutter.body();
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
       Draw draw(seed);
-      const ToolPath path = swaying(draw, 48);
-      std::vector<std::uint32_t> all(path.segments.size());
-      std::iota(all.begin(), all.end(), 0U);
-      const PoseTree tree(path, all, body);
-      const ToolPose& stands = path.poses[static_cast<std::size_t>(draw.below(49))];
-      const Ray ray{stands.tip + draw.between(0.1, 0.9) * body.height() * stands.axis,
-                    draw.direction()};
+      const Swaying scene(draw, body);
+      const auto& [path, tree, stands, ray] = scene;
       const QuadCrossing crossing(ray);
       for (const GroupQuad& quad : tree.quads()) {
         EXPECT_TRUE(are_same(crossing.within(quad, {-9.0, 20.0}),
