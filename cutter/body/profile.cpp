@@ -250,7 +250,9 @@ std::optional<Chord> Profile::chord(const ToolPose& pose, const Ray& ray, double
   const ToolRay tool_ray = in_tool_terms(pose, ray, 0.5 * (bottom_ + height_));
   const Span slab = slab_span(tool_ray, bottom_ - grown_by, height_ + grown_by);
   if (slab.empty()) return std::nullopt;
-  if (overlap(slab, cylinder_span(tool_ray, max_radius_ + grown_by)).empty()) return std::nullopt;
+  const bool has_zones = zones_.size() > 1;
+  if (has_zones && overlap(slab, cylinder_span(tool_ray, max_radius_ + grown_by)).empty())
+    return std::nullopt;
 
   const ProfileFace at_slab_lo = tool_ray.dz > 0.0 ? kBottomFace : kTopFace;
   const ProfileFace at_slab_hi = tool_ray.dz > 0.0 ? kTopFace : kBottomFace;
@@ -258,7 +260,7 @@ std::optional<Chord> Profile::chord(const ToolPose& pose, const Ray& ray, double
   for (std::size_t i = 0; i < zones_.size(); ++i) {
     const Zone& zone = zones_[i];
     const Span height =
-        zones_.size() == 1 ? slab : slab_span(tool_ray, zone.z_lo - grown_by, zone.z_hi + grown_by);
+        !has_zones ? slab : slab_span(tool_ray, zone.z_lo - grown_by, zone.z_hi + grown_by);
     if (height.empty()) continue;
     const Span lateral = lateral_span(zone, secants_[i], tool_ray, grown_by, height);
     const Span part = overlap(lateral, height);

@@ -22,6 +22,7 @@
 #include "core/box.hpp"
 #include "core/constants.hpp"
 #include "cutter/search/group_reach.hpp"
+#include "cutter/search/prefetch.hpp"
 #include "cutter/search/quad_crossing.hpp"
 #include "cutter/search/ray_search.hpp"
 #include "cutter/sweep/concave_sweep.hpp"
@@ -30,11 +31,11 @@
 namespace frustum::cutter {
 
 // What the ends found so far leave of a group: nothing, nothing of its representative, nothing
-// beyond a place.
+// before or beyond a place.
 struct GroupLimit {
   bool holds = false;
   bool counts_representative = true;
-  double hi = kInfinity;
+  double hi = kInfinity, lo = -kInfinity;
 };
 
 // Of the groups of a quad.
@@ -88,13 +89,29 @@ class GroupSearch {
   // these adds nothing to what is covered now.
   template <class IsHeld>
   void run(std::span<const std::uint32_t> groups, const IsHeld& is_held) {
+    open(groups, is_held);
+    finish();
+  }
+
+  // The same in steps: what groups promise; on until this is so, if ever; all that is left.
+  template <class IsHeld>
+  void open(std::span<const std::uint32_t> groups, const IsHeld& is_held) {
     Look look;
     for (std::size_t i = 0; i < groups.size(); ++i) {
-      if (!is_held(i)) consider(groups[i], look);
+      if (is_held(i)) continue;
+      // There is something for every ray in the root.
+      const bool is_root = groups[i] == 0 && quads_.front().count[0] == 0;
+      is_root ? consider(quads_.front().next[0]) : consider(groups[i], look);
     }
-    for (Candidate next; take_best(next);) {
+  }
+  template <class IsMet>
+  void run_until(const IsMet& is_met) {
+    for (Candidate next; !is_met() && take_best(next);) {
       if (goal_.change() == next.change || goal_.wants(next.group, next.counted)) visit(next.group);
     }
+  }
+  void finish() {
+    run_until([] { return false; });
     while (!gaps_.empty()) {
       const Gap gap = gaps_.back();
       gaps_.pop_back();
@@ -105,6 +122,11 @@ class GroupSearch {
   // What the cutter covers where this segment begins.
   void take_pose(std::uint32_t segment) {
     take_pose(segment, question_.path->segments[segment].first_pose);
+  }
+  // At time t of a segment that likely makes an end: if its leaf is asked it comes first.
+  void take_likely(std::uint32_t segment, double t) {
+    likely_ = segment;
+    take_pose(segment, motion_of(segment).at(t), t);
   }
   // What the convex parts cover in this segment, whatever is covered already.
   void solve_parts(std::uint32_t segment) { solve_parts(segment, motion_of(segment)); }
@@ -160,7 +182,12 @@ class GroupSearch {
     if (!any) return;
     const QuadLimit limits = goal_.limit(groups, in_box);
     for (std::size_t lane = 0; lane < kSiblings; ++lane) {
-      if (!wanted[lane] || limits[lane].holds) continue;
+      wanted[lane] = wanted[lane] && !limits[lane].holds;
+      if (wanted[lane] && limits[lane].counts_representative)
+        fetch(&question_.path->poses[groups.representative_pose[lane]], 1);
+    }
+    for (std::size_t lane = 0; lane < kSiblings; ++lane) {
+      if (!wanted[lane]) continue;
       judge(groups, number_of(quad, lane), limits[lane], {in_box.lo[lane], in_box.hi[lane]});
     }
   }
@@ -169,9 +196,7 @@ class GroupSearch {
     const std::size_t lane = index % kSiblings;
     const RaySpan span{in_box.lo[lane], in_box.hi[lane]};
     if (groups.earliest[lane] >= question_.first_excluded || !(span.lo <= span.hi)) return false;
-    if (!goal_.wants(index, goal_.counted({span.lo, span.hi}))) return false;
-    fetch(&question_.path->poses[groups.representative_pose[lane]], 1);
-    return true;
+    return goal_.wants(index, goal_.counted({span.lo, span.hi}));
   }
   [[nodiscard]] static std::uint32_t number_of(std::uint32_t quad, std::size_t lane) {
     return kSiblings * quad + static_cast<std::uint32_t>(lane);
@@ -192,6 +217,7 @@ class GroupSearch {
       reach.hi = limit.hi;
       reach.hi_slack = 0.0;  // it is in the limit already
     }
+    reach.lo = std::max(reach.lo, limit.lo);
     const RaySpan counted = goal_.counted(reach);
     if (!goal_.wants(index, counted)) return;
     add({goal_.promise(reach), counted, index, goal_.change()});
@@ -210,7 +236,7 @@ class GroupSearch {
     std::ranges::push_heap(open_, is_later);
     if (is_better) best_ = next;
   }
-  // Large trees do not fit into the caches: what may be asked next is fetched now.
+  // What may be asked next.
   void fetch_under(std::uint32_t index) const {
     const GroupQuad& groups = quads_[index / kSiblings];
     const std::size_t lane = index % kSiblings;
@@ -222,12 +248,6 @@ class GroupSearch {
     fetch(&sweep_.tree.segments()[groups.next[lane]], 1);
     fetch(&question_.path->segments[groups.representative_segment[lane]], 1);
     fetch(&question_.path->poses[groups.representative_pose[lane]], 3);
-  }
-  template <class T>
-  static void fetch(const T* first, std::size_t count) {
-    constexpr std::size_t kLine = 64;
-    const auto* bytes = reinterpret_cast<const char*>(first);
-    for (std::size_t k = 0; k < count * sizeof(T); k += kLine) __builtin_prefetch(bytes + k);
   }
   bool take_best(Candidate& next) {
     const bool is_in_heap = !open_.empty() && (!has_best_ || is_later(best_, open_.front()));
@@ -243,16 +263,18 @@ class GroupSearch {
 
   // What the parts of the body cover where a segment begins.
   void take_pose(std::uint32_t segment, std::uint32_t at) {
-    if (segment >= question_.first_excluded) return;
-    const ToolPose& pose = question_.path->poses[at];
+    if (segment < question_.first_excluded) take_pose(segment, question_.path->poses[at], 0.0);
+  }
+  void take_pose(std::uint32_t segment, const ToolPose& pose, double t) {
     for (std::uint32_t i = 0; i < parts_.size(); ++i) {
-      if (const auto chord = parts_[i].chord(pose, question_.ray)) take_chord(*chord, segment, i);
+      if (const auto chord = parts_[i].chord(pose, question_.ray))
+        take_chord(*chord, segment, i, t);
     }
   }
-  void take_chord(const Chord& chord, std::uint32_t segment, std::uint32_t part) {
+  void take_chord(const Chord& chord, std::uint32_t segment, std::uint32_t part, double t = 0.0) {
     if (!is_in_span(chord.lo, chord.hi)) return;
-    goal_.take({{chord.lo, segment, part, 0.0, chord.lo_face},
-                {chord.hi, segment, part, 0.0, chord.hi_face}});
+    goal_.take(
+        {{chord.lo, segment, part, t, chord.lo_face}, {chord.hi, segment, part, t, chord.hi_face}});
   }
 
   void take_solved(const SweptInterval& solved) {
@@ -309,8 +331,8 @@ class GroupSearch {
     std::array<Open, kMostInLeaf> open;
     std::size_t count = 0;
     for (std::size_t lane = 0; lane < leaf.count; ++lane) {
-      const double room = rooms[lane];
-      if (room >= 0.0) continue;
+      if (rooms[lane] >= 0.0) continue;
+      const double room = leaf.segments[lane] == likely_ ? -kInfinity : rooms[lane];
       std::size_t at = count++;
       for (; at > 0 && open[at - 1].room > room; --at) open[at] = open[at - 1];
       open[at] = {room, leaf.segments[lane]};
@@ -461,6 +483,7 @@ class GroupSearch {
   std::span<const Profile> parts_;
   std::span<const GroupQuad> quads_;
   QuadCrossing in_box_;
+  std::optional<std::uint32_t> likely_{};
   boost::container::small_vector<Candidate, 32> open_{};  // a heap by promise
   Candidate best_{};
   bool has_best_ = false;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
+#include <utility>
 
 #include "core/constants.hpp"
 
@@ -16,21 +18,20 @@ class Climb {
   Climb(const RayQuestion& question, const Body& body, std::uint32_t segment, bool leaving)
       : question_(question), body_(body), segment_(segment), leaving_(leaving) {}
 
-  [[nodiscard]] std::uint32_t top() const {
-    const double here = depth(0), next = depth(1);
-    if (here == -kInfinity && next == -kInfinity) return segment_;
-    // Poses `at` and `beyond` in the sense of the climb; the best is between `from` and `beyond`.
-    const std::int64_t sense = next > here ? 1 : -1;
-    Place from{next > here ? 0 : 1, std::min(here, next)};
-    Place best{next > here ? 1 : 0, std::max(here, next)};
-    std::int64_t step = 1;
-    for (;;) {
-      const Place beyond = at(best.pose + sense * step);
-      if (!(beyond.depth > best.depth)) return narrowed(from, best, beyond);
-      from = best;
+  [[nodiscard]] ClimbTop top() const {
+    Place before = at(0), best = at(1);
+    if (before.depth == -kInfinity && best.depth == -kInfinity) return {segment_, 0.0};
+    const std::int64_t sense = best.depth > before.depth ? 1 : -1;
+    if (sense < 0) std::swap(before, best);
+    Place beyond = at(best.pose + sense);
+    while (beyond.depth > best.depth) {
+      const std::int64_t step = std::abs(beyond.pose - best.pose);
+      const std::int64_t next = beyond.pose + sense * ahead(before, best, beyond, step);
+      before = best;
       best = beyond;
-      step *= 2;
+      beyond = at(next);
     }
+    return narrowed(before, best, beyond);
   }
 
  private:
@@ -40,40 +41,80 @@ class Climb {
   };
   [[nodiscard]] Place at(std::int64_t pose) const { return {pose, depth(pose)}; }
 
-  // The segment beside the best of the poses from a to c; b is between them and better.
-  [[nodiscard]] std::uint32_t narrowed(Place a, Place b, Place c) const {
-    while (std::abs(c.pose - a.pose) > 2) {
-      const bool upper = std::abs(c.pose - b.pose) > std::abs(b.pose - a.pose);
-      const Place middle = at(upper ? (b.pose + c.pose) / 2 : (a.pose + b.pose) / 2);
-      if (middle.pose == b.pose) break;
+  // Where the parabola through three places is highest, counted from the middle one in poses;
+  // nothing where it has no top.
+  [[nodiscard]] static std::optional<double> top_of(const Place& a, const Place& b,
+                                                    const Place& c) {
+    const auto to_a = static_cast<double>(a.pose - b.pose);
+    const auto to_c = static_cast<double>(c.pose - b.pose);
+    const double rise_a = (a.depth - b.depth) / to_a, rise_c = (c.depth - b.depth) / to_c;
+    const double bend = (rise_c - rise_a) / (to_c - to_a);
+    if (!(bend < 0.0) || std::isinf(bend)) return std::nullopt;
+    return 0.5 * (to_c - rise_c / bend);
+  }
+
+  // By how many poses to go on, from a place beyond which it still rises: a little farther than
+  // where the top seems to be.
+  [[nodiscard]] static std::int64_t ahead(const Place& before, const Place& best,
+                                          const Place& beyond, std::int64_t step) {
+    constexpr double kMostGrowth = 16.0;
+    const auto top = top_of(before, best, beyond);
+    if (!top) return 2 * step;
+    const double most = kMostGrowth * static_cast<double>(step);
+    const double far = std::abs(*top) - static_cast<double>(step);
+    return static_cast<std::int64_t>(std::clamp(std::ceil(far), 1.0, most));
+  }
+
+  // The segment beside the best of the poses from a to c; b is between them and not worse.
+  [[nodiscard]] ClimbTop narrowed(Place a, Place b, Place c) const {
+    for (int i = 0; std::abs(c.pose - a.pose) > 2; ++i) {
+      const Place middle = at(between(a, b, c, i % 3 == 2));
       if (middle.depth > b.depth) {
-        (upper ? a : c) = b;
+        ((middle.pose > b.pose) == (c.pose > b.pose) ? a : c) = b;
         b = middle;
       } else {
-        (upper ? c : a) = middle;
+        ((middle.pose > b.pose) == (c.pose > b.pose) ? c : a) = middle;
       }
     }
     const auto beside = [&](std::int64_t pose) {
-      return a.pose == pose ? a.depth : c.pose == pose ? c.depth : depth(pose);
+      return a.pose == pose ? a : c.pose == pose ? c : at(pose);
     };
-    const std::int64_t after = beside(b.pose + 1) > beside(b.pose - 1) ? b.pose : b.pose - 1;
-    return segment_at(after).value_or(segment_at(b.pose).value_or(segment_));
+    return between_poses(beside(b.pose - 1), b, beside(b.pose + 1));
+  }
+  // By three poses in a row, the middle of which is the best.
+  [[nodiscard]] ClimbTop between_poses(const Place& before, const Place& best,
+                                       const Place& after) const {
+    const bool is_after = after.depth > before.depth;
+    const double t = std::clamp(top_of(before, best, after).value_or(0.0), -1.0, 1.0);
+    const auto segment = segment_at(is_after ? best.pose : best.pose - 1);
+    if (segment) return {*segment, is_after ? std::max(t, 0.0) : 1.0 + std::min(t, 0.0)};
+    const auto other = segment_at(best.pose);
+    return other ? ClimbTop{*other, 0.0} : ClimbTop{segment_, 0.0};
+  }
+  // A pose between a and c, but b: where the top seems to be, or `half` way on the longer side.
+  [[nodiscard]] static std::int64_t between(const Place& a, const Place& b, const Place& c,
+                                            bool half) {
+    const std::int64_t longer =
+        std::abs(c.pose - b.pose) > std::abs(b.pose - a.pose) ? c.pose : a.pose;
+    const std::int64_t sense = longer > b.pose ? 1 : -1;
+    const auto top = half ? std::nullopt : top_of(a, b, c);
+    if (!top) return b.pose + sense * std::max<std::int64_t>(1, std::abs(longer - b.pose) / 2);
+    const std::int64_t least = std::min(a.pose, c.pose) + 1, most = std::max(a.pose, c.pose) - 1;
+    const std::int64_t next = std::clamp<std::int64_t>(b.pose + std::llround(*top), least, most);
+    return next == b.pose ? b.pose + sense : next;
   }
 
-  // Counted from the segment on; nothing where the path of this tool does not run on.
+  // Counted from the segment on; nothing where the path does not run on from pose to pose. Another
+  // tool may do so.
   [[nodiscard]] std::optional<std::uint32_t> segment_at(std::int64_t offset) const {
     const auto& segments = question_.path->segments;
     const std::int64_t i = static_cast<std::int64_t>(segment_) + offset;
     const auto end = std::min<std::int64_t>(static_cast<std::int64_t>(segments.size()),
                                             question_.first_excluded);
     if (i < 0 || i >= end || std::abs(offset) > kFarthest) return std::nullopt;
-    const auto& here = segments[segment_];
-    const auto& there = segments[static_cast<std::size_t>(i)];
-    const auto& blocks = question_.path->blocks;
-    const bool runs_on = static_cast<std::int64_t>(there.first_pose) ==
-                             static_cast<std::int64_t>(here.first_pose) + offset &&
-                         blocks[there.block].tool == blocks[here.block].tool;
-    if (!runs_on) return std::nullopt;
+    const std::int64_t pose = static_cast<std::int64_t>(segments[segment_].first_pose) + offset;
+    if (static_cast<std::int64_t>(segments[static_cast<std::size_t>(i)].first_pose) != pose)
+      return std::nullopt;
     return static_cast<std::uint32_t>(i);
   }
 
@@ -113,9 +154,13 @@ std::optional<std::uint32_t> next_at(const RayQuestion& question, std::uint32_t 
   return next;
 }
 
-std::uint32_t climbed(const RayQuestion& question, const Body& body, std::uint32_t segment,
-                      bool leaving) {
-  return Climb(question, body, segment, leaving).top();
+ClimbTop climbed(const RayQuestion& question, const Body& body, std::uint32_t segment,
+                 bool leaving) {
+  const kinematics::ToolPath& path = *question.path;
+  const ClimbTop top = Climb(question, body, segment, leaving).top();
+  const bool is_same_tool = path.blocks[path.segments[top.segment].block].tool ==
+                            path.blocks[path.segments[segment].block].tool;
+  return is_same_tool ? top : ClimbTop{segment, 0.0};
 }
 
 }  // namespace frustum::cutter

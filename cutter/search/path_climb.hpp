@@ -1,8 +1,7 @@
 // From a segment that makes the end of a ray's neighbour to the one that likely makes its own.
 //
-// Model    : along the path from pose to pose, in growing steps and then halves, as long as the
-//            cutter reaches farther along the ray. A guess: what it says is solved and proven by
-//            the search
+// Model    : along the path to the pose whose cutter reaches farthest along the ray, by parabolas
+//            through the last three. A guess: what it says is solved and proven by the search
 // Units    : mm along the ray; frame: workpiece
 // Errors   : none; the segment itself where its cutter does not meet the ray
 // Source   : ours
@@ -15,9 +14,14 @@
 
 namespace frustum::cutter {
 
+// About when the cutter reaches farthest.
+struct ClimbTop {
+  std::uint32_t segment = 0;
+  double t = 0.0;
+};
 // `leaving`: what is covered is before the end, else after it.
-[[nodiscard]] std::uint32_t climbed(const RayQuestion& question, const Body& body,
-                                    std::uint32_t segment, bool leaving);
+[[nodiscard]] ClimbTop climbed(const RayQuestion& question, const Body& body, std::uint32_t segment,
+                               bool leaving);
 
 // The segment that goes on from an end of this one, where the cutter makes an end of what is
 // covered at that time; nothing between its poses, or where the path does not run on.

@@ -5,8 +5,10 @@
 #include <optional>
 
 #include "core/constants.hpp"
+#include "cutter/search/axis_distance.hpp"
 #include "cutter/search/group_search.hpp"
 #include "cutter/search/path_climb.hpp"
+#include "cutter/search/pose_descent.hpp"
 #include "cutter/search/separating_plane.hpp"
 #include "cutter/search/whole_sweep.hpp"
 
@@ -153,8 +155,13 @@ class WholeSweptInterval {
 // Only what continues the swept interval from the front.
 class Front {
  public:
-  Front(const RaySpan& span, const EndPlanes& planes, double gap, SweptIntervalEnd& front)
-      : span_(span), planes_(planes), gap_(gap), front_(front) {}
+  Front(const RayQuestion& question, const Body& body, const EndPlanes& planes, double gap,
+        SweptIntervalEnd& front)
+      : span_(question.span),
+        planes_(planes),
+        start_(question.ray.at(front.s), body),
+        gap_(gap),
+        front_(front) {}
 
   [[nodiscard]] RaySpan span() const { return {front_.s - gap_, span_.hi}; }
 
@@ -179,7 +186,7 @@ class Front {
 
   // Whatever a group covers before the front does not matter.
   [[nodiscard]] QuadLimit limit(const GroupQuad& groups, const QuadSpan&) {
-    if (change_ == 0) return {};
+    if (change_ == 0) return limit_at_start(groups);
     const Overreach over = plane().overreach(groups);
     const auto of = [&](std::size_t lane) {
       return GroupLimit{over.most[lane] <= 0.0,
@@ -261,12 +268,25 @@ class Front {
     ++change_;
   }
 
+  // What no cutter of which is at the front begins beyond it, if at all.
+  [[nodiscard]] QuadLimit limit_at_start(const GroupQuad& groups) const {
+    const auto away = start_.are_away(groups);
+    QuadLimit limits;
+    for (std::size_t lane = 0; lane < kSiblings; ++lane) {
+      if (!away[lane]) continue;
+      limits[lane].counts_representative = false;
+      limits[lane].lo = front_.s + 2.0 * gap_;
+    }
+    return limits;
+  }
+
   struct Deferred {
     double lo;
     std::uint32_t group;
   };
   RaySpan span_;
   const EndPlanes& planes_;
+  AxisDistance start_;  // of where the front was at first
   double gap_;
   SweptIntervalEnd& front_;
   std::optional<SeparatingPlane> plane_{};  // at the front; made when first asked for
@@ -310,6 +330,55 @@ class FrontFans {
   int change_ = 0;
 };
 
+// Segments are asked first, the groups then.
+class FrontSearch {
+ public:
+  FrontSearch(const RayQuestion& question, const ToolSweep& sweep, double gap,
+              SweptIntervalEnd& front)
+      : question_(question),
+        sweep_(sweep),
+        planes_(question, *sweep.body),
+        goal_(question, *sweep.body, planes_, gap, front),
+        search_(question, sweep, goal_) {}
+
+  // From a segment along the path to what likely makes the end.
+  void climb_from(std::uint32_t segment) {
+    const std::uint32_t likely = climbed(question_, *sweep_.body, segment, true).segment;
+    search_.solve_parts(likely);
+    if (!goal_.moved() || goal_.end().segment != likely) return;
+    if (const auto next = next_at(question_, likely, goal_.end().t)) search_.solve_parts(*next);
+  }
+
+  // On to what likely is at a point, and from there along the path.
+  void descend_to(const Vec3& point) {
+    const auto there = likely_segment_at(point, sweep_, question_.first_excluded);
+    if (!there) return;
+    const ClimbTop likely = climbed(question_, *sweep_.body, *there, true);
+    search_.take_likely(likely.segment, likely.t);
+  }
+
+  void ask(std::span<const std::uint32_t> groups, EndFans* fans) {
+    FrontFans held(goal_, sweep_, groups, fans);
+    search_.open(groups, [&](std::size_t i) { return held.hold(i); });
+    if (!goal_.moved()) {
+      // The first pose that covers anything is mostly on the way to what makes the end.
+      search_.run_until([&] { return goal_.moved(); });
+      if (goal_.moved()) climb_from(goal_.end().segment);
+    }
+    search_.finish();
+    while (const auto group = goal_.next_deferred()) search_.run(*group);
+  }
+
+  [[nodiscard]] bool moved() const { return goal_.moved(); }
+
+ private:
+  const RayQuestion& question_;
+  const ToolSweep& sweep_;
+  EndPlanes planes_;
+  Front goal_;
+  GroupSearch<Front> search_;
+};
+
 }  // namespace
 
 void extend_swept_interval(const RayQuestion& question, const ToolSweep& sweep,
@@ -333,27 +402,21 @@ void extend_swept_interval(const RayQuestion& question, const ToolSweep& sweep,
 
 bool advance_front(const RayQuestion& question, const ToolSweep& sweep, double gap,
                    SweptIntervalEnd& front) {
-  constexpr std::uint32_t kRoot = 0;
   if (sweep.tree.empty()) return false;
-  return advance_front(question, sweep, gap, {&kRoot, 1}, {}, nullptr, front);
+  FrontSearch search(question, sweep, gap, front);
+  search.descend_to(question.ray.at(front.s));
+  constexpr std::uint32_t kRoot = 0;
+  search.ask({&kRoot, 1}, nullptr);
+  return search.moved();
 }
 
 bool advance_front(const RayQuestion& question, const ToolSweep& sweep, double gap,
                    std::span<const std::uint32_t> groups, std::span<const std::uint32_t> first,
                    EndFans* fans, SweptIntervalEnd& front) {
-  const EndPlanes planes(question, *sweep.body);
-  Front goal(question.span, planes, gap, front);
-  GroupSearch search(question, sweep, goal);
-  for (const std::uint32_t segment : first) {
-    const std::uint32_t likely = climbed(question, *sweep.body, segment, true);
-    search.solve_parts(likely);
-    if (goal.end().segment != likely || !goal.moved()) continue;
-    if (const auto next = next_at(question, likely, goal.end().t)) search.solve_parts(*next);
-  }
-  FrontFans held(goal, sweep, groups, fans);
-  search.run(groups, [&](std::size_t i) { return held.hold(i); });
-  while (const auto group = goal.next_deferred()) search.run(*group);
-  return goal.moved();
+  FrontSearch search(question, sweep, gap, front);
+  for (const std::uint32_t segment : first) search.climb_from(segment);
+  search.ask(groups, fans);
+  return search.moved();
 }
 
 }  // namespace frustum::cutter

@@ -58,11 +58,12 @@ void extend_swept_interval(const RayQuestion& question, const ToolSweep& sweep,
                            std::vector<SweptInterval>& swept);
 
 // Moves `front` up to the end of what covers it without a gap; false if nothing does. Gaps of less
-// than `gap` are passed over.
+// than `gap` are passed over. Begun with what is likely at the front; ends that differ by rounding
+// may depend on that, and so on segments that cover nothing of the ray.
 bool advance_front(const RayQuestion& question, const ToolSweep& sweep, double gap,
                    SweptIntervalEnd& front);
-// The same where nothing else counts than `groups`; segments in `first` are asked first. `fans`: of
-// these groups at ends near by, or null; those that are missing are added.
+// The same where nothing else counts than `groups`, begun with the segments in `first` alone.
+// `fans`: of these groups at ends near by, or null; those that are missing are added.
 bool advance_front(const RayQuestion& question, const ToolSweep& sweep, double gap,
                    std::span<const std::uint32_t> groups, std::span<const std::uint32_t> first,
                    EndFans* fans, SweptIntervalEnd& front);

@@ -195,7 +195,7 @@ class TileSearch {
       for (const bool leaving : {false, true}) {
         const SweptIntervalEnd& end = leaving ? c.hi : c.lo;
         if (body_of(end.segment) != sweep_.body) continue;
-        const std::uint32_t likely = climbed(question, *sweep_.body, end.segment, leaving);
+        const std::uint32_t likely = climbed(question, *sweep_.body, end.segment, leaving).segment;
         if (std::ranges::find(hints_, likely) == hints_.end()) hints_.push_back(likely);
       }
     }

@@ -201,34 +201,42 @@ std::optional<SweepContact> SweptCutter::end_of_void(const Ray& ray, double from
   const RayQuestion question{&path_, ray, {from, to}, first_excluded};
   SweptIntervalEnd front{.s = from};
   bool moved = false;
-  constexpr std::uint32_t kRoot = 0;
-  constexpr std::size_t kMostFirst = 4;
+  const bool is_unknown = likely.segments.empty() && likely.near == nullptr;
   const auto tools = sweeps_->size();
   // Until no tool has moved it since all the others were asked.
   std::size_t still = 0;
   for (std::size_t tool = 0; still < tools; tool = (tool + 1) % tools) {
-    const ToolSweep& sweep = (*sweeps_)[tool];
     ++still;
-    const std::span<const std::uint32_t> groups =
-        likely.near != nullptr ? std::span<const std::uint32_t>(likely.near->groups[tool])
-                               : std::span(&kRoot, 1);
-    if (groups.empty() || sweep.tree.empty()) continue;
-    std::array<std::uint32_t, kMostFirst> first{};
-    std::size_t count = 0;
-    for (const EndTag tag : likely.segments) {
-      if (tag < 0 || tag >= static_cast<EndTag>(first_excluded) || count == kMostFirst) continue;
-      const auto segment = static_cast<std::uint32_t>(tag);
-      if (&body_of(segment) == sweep.body) first[count++] = segment;
-    }
-    EndFans* fans = likely.near != nullptr ? &likely.near->fans[tool] : nullptr;
-    if (advance_front(question, sweep, kPassedOver, groups, std::span(first).first(count), fans,
-                      front)) {
-      moved = true;
-      still = 1;
-    }
+    const bool moves = is_unknown ? advance_front(question, (*sweeps_)[tool], kPassedOver, front)
+                                  : advance_front_near(question, tool, likely, front);
+    if (!moves) continue;
+    moved = true;
+    still = 1;
   }
   if (!moved) return std::nullopt;
   return contact_of(ray, front);
+}
+
+bool SweptCutter::advance_front_near(const RayQuestion& question, std::size_t tool,
+                                     const Likely& likely, SweptIntervalEnd& front) const {
+  const ToolSweep& sweep = (*sweeps_)[tool];
+  constexpr std::uint32_t kRoot = 0;
+  const std::span<const std::uint32_t> groups =
+      likely.near != nullptr ? std::span<const std::uint32_t>(likely.near->groups[tool])
+                             : std::span(&kRoot, 1);
+  if (groups.empty() || sweep.tree.empty()) return false;
+  constexpr std::size_t kMostFirst = 4;
+  std::array<std::uint32_t, kMostFirst> first{};
+  std::size_t count = 0;
+  for (const EndTag tag : likely.segments) {
+    if (tag < 0 || tag >= static_cast<EndTag>(question.first_excluded) || count == kMostFirst)
+      continue;
+    const auto segment = static_cast<std::uint32_t>(tag);
+    if (&body_of(segment) == sweep.body) first[count++] = segment;
+  }
+  EndFans* fans = likely.near != nullptr ? &likely.near->fans[tool] : nullptr;
+  return advance_front(question, sweep, kPassedOver, groups, std::span(first).first(count), fans,
+                       front);
 }
 
 bool SweptNear::empty() const {

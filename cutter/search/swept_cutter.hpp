@@ -105,6 +105,8 @@ class SweptCutter {
   SweptCutter(kinematics::ToolPath path, std::map<int, Cutter> tools);
   [[nodiscard]] const Body& body_of(std::uint32_t segment) const;
   [[nodiscard]] SweepContact contact_of(const Ray& ray, const SweptIntervalEnd& end) const;
+  bool advance_front_near(const RayQuestion& question, std::size_t tool, const Likely& likely,
+                          SweptIntervalEnd& front) const;
 
   kinematics::ToolPath path_;
   std::shared_ptr<const std::map<int, Cutter>> tools_;  // shared by copies: profiles are pointed to

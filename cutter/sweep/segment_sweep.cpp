@@ -334,9 +334,12 @@ class HighestEnd {
                                     const Vec3& point) const {
     const TangentPlane& plane = from.plane;
     const Vec3& a = from.pose.axis;
-    const Vec3 m = point - from.pose.tip, step = to.tip - from.pose.tip, turn = to.axis - a;
-    const Vec3 w = plane.side.cross(a);
+    const Vec3 m = point - from.pose.tip;
     const Vec3 normal = plane.normal_across(a);
+    const double above = normal.dot(m) - plane.offset + kSearchTolerance;
+    if (!(above >= 0.0)) return 0.0;
+    const Vec3 step = to.tip - from.pose.tip, turn = to.axis - a;
+    const Vec3 w = plane.side.cross(a);
     const Vec3 by_axis = plane.lateral * w.cross(m) + plane.axial * m;
     const double turned2 = turn.squaredNorm();
     constexpr double kFarTurned = 0.06;  // a sample and the next are nearer
@@ -358,7 +361,7 @@ class HighestEnd {
     const double turns = 0.5 * plane.lateral * std::max(0.0, least_rho) * across * across;
     const double unknown = turned2 / 7.9 * sideways + beside * (far + run) +
                            std::abs(arc) * turned2 / 20.0 + far * across * beside;
-    const double height = normal.dot(m) - plane.offset + kSearchTolerance - unknown;
+    const double height = above - unknown;
     const double rise = by_axis.dot(turn) + arc - normal.dot(step);
     const double bend =
         turns - arc - (plane.lateral * w.dot(step.cross(turn)) + plane.axial * step.dot(turn));

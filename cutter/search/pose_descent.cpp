@@ -1,0 +1,32 @@
+#include "cutter/search/pose_descent.hpp"
+
+#include <cstddef>
+
+#include "cutter/search/axis_distance.hpp"
+#include "cutter/search/prefetch.hpp"
+
+namespace frustum::cutter {
+
+std::optional<std::uint32_t> likely_segment_at(const Vec3& point, const ToolSweep& sweep,
+                                               std::uint32_t first_excluded) {
+  if (sweep.tree.empty()) return std::nullopt;
+  const AxisDistance distance(point, *sweep.body);
+  for (std::uint32_t quad = 0;;) {
+    const GroupQuad& groups = sweep.tree.quads()[quad];
+    const FloatFour away2 = distance.squares(groups);
+    std::size_t best = kSiblings;
+    for (std::size_t lane = 0; lane < kSiblings; ++lane) {
+      if (groups.earliest[lane] >= first_excluded) continue;
+      if (best == kSiblings || away2[lane] < away2[best]) best = lane;
+    }
+    if (best == kSiblings) return std::nullopt;
+    if (groups.count[best] > 0) {
+      const std::uint32_t middle = groups.representative_segment[best];
+      return middle < first_excluded ? middle : groups.earliest[best];
+    }
+    quad = groups.next[best];
+    fetch(&sweep.tree.quads()[quad], 1);
+  }
+}
+
+}  // namespace frustum::cutter
