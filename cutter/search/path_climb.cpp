@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/constants.hpp"
+#include "cutter/search/prefetch.hpp"
 
 namespace frustum::cutter {
 namespace {
@@ -16,7 +17,15 @@ constexpr std::int64_t kFarthest = 256;
 class Climb {
  public:
   Climb(const RayQuestion& question, const Body& body, std::uint32_t segment, bool leaving)
-      : question_(question), body_(body), segment_(segment), leaving_(leaving) {}
+      : question_(question), body_(body), segment_(segment), leaving_(leaving) {
+    // Mostly it does not go far.
+    constexpr std::uint32_t kBefore = 3, kAround = 8;
+    const auto& poses = question.path->poses;
+    const std::uint32_t first = question.path->segments[segment].first_pose;
+    if (first < kBefore || first - kBefore + kAround > poses.size()) return;
+    fetch(&poses[first - kBefore], kAround);
+    fetch(&question.path->blocks[question.path->segments[segment].block], 1);
+  }
 
   [[nodiscard]] ClimbTop top() const {
     Place before = at(0), best = at(1);
@@ -158,6 +167,7 @@ ClimbTop climbed(const RayQuestion& question, const Body& body, std::uint32_t se
                  bool leaving) {
   const kinematics::ToolPath& path = *question.path;
   const ClimbTop top = Climb(question, body, segment, leaving).top();
+  if (top.segment == segment) return top;
   const bool is_same_tool = path.blocks[path.segments[top.segment].block].tool ==
                             path.blocks[path.segments[segment].block].tool;
   return is_same_tool ? top : ClimbTop{segment, 0.0};

@@ -7,8 +7,8 @@
 
 namespace frustum::cutter {
 
-std::optional<std::uint32_t> likely_segment_at(const Vec3& point, const ToolSweep& sweep,
-                                               std::uint32_t first_excluded) {
+std::optional<std::uint32_t> likely_segment_at(const Vec3& point, const RayQuestion& question,
+                                               const ToolSweep& sweep) {
   if (sweep.tree.empty()) return std::nullopt;
   const AxisDistance distance(point, *sweep.body);
   for (std::uint32_t quad = 0;;) {
@@ -16,13 +16,15 @@ std::optional<std::uint32_t> likely_segment_at(const Vec3& point, const ToolSwee
     const FloatFour away2 = distance.squares(groups);
     std::size_t best = kSiblings;
     for (std::size_t lane = 0; lane < kSiblings; ++lane) {
-      if (groups.earliest[lane] >= first_excluded) continue;
+      if (groups.earliest[lane] >= question.first_excluded) continue;
       if (best == kSiblings || away2[lane] < away2[best]) best = lane;
     }
     if (best == kSiblings) return std::nullopt;
     if (groups.count[best] > 0) {
       const std::uint32_t middle = groups.representative_segment[best];
-      return middle < first_excluded ? middle : groups.earliest[best];
+      fetch(&question.path->segments[middle], 1);
+      fetch(&question.path->poses[groups.representative_pose[best]], 3);
+      return middle < question.first_excluded ? middle : groups.earliest[best];
     }
     quad = groups.next[best];
     fetch(&sweep.tree.quads()[quad], 1);

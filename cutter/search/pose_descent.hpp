@@ -14,9 +14,9 @@
 
 namespace frustum::cutter {
 
-// Of the segments before `first_excluded`.
+// Of the segments that count.
 [[nodiscard]] std::optional<std::uint32_t> likely_segment_at(const Vec3& point,
-                                                             const ToolSweep& sweep,
-                                                             std::uint32_t first_excluded);
+                                                             const RayQuestion& question,
+                                                             const ToolSweep& sweep);
 
 }  // namespace frustum::cutter

@@ -160,6 +160,7 @@ class Front {
       : span_(question.span),
         planes_(planes),
         start_(question.ray.at(front.s), body),
+        has_concave_(!body.concave().empty()),
         gap_(gap),
         front_(front) {}
 
@@ -215,6 +216,8 @@ class Front {
   [[nodiscard]] std::span<const Chord> floors() { return known(); }
   void take_solved(const SweptInterval& next) {
     take(next);
+    // Of a body with concave sections that is only what its parts cover.
+    if (has_concave_) return;
     if (next.hi.s == front_.s && next.hi.segment == front_.segment) solved_ = front_.segment;
   }
 
@@ -287,6 +290,7 @@ class Front {
   RaySpan span_;
   const EndPlanes& planes_;
   AxisDistance start_;  // of where the front was at first
+  bool has_concave_;
   double gap_;
   SweptIntervalEnd& front_;
   std::optional<SeparatingPlane> plane_{};  // at the front; made when first asked for
@@ -351,7 +355,7 @@ class FrontSearch {
 
   // On to what likely is at a point, and from there along the path.
   void descend_to(const Vec3& point) {
-    const auto there = likely_segment_at(point, sweep_, question_.first_excluded);
+    const auto there = likely_segment_at(point, question_, sweep_);
     if (!there) return;
     const ClimbTop likely = climbed(question_, *sweep_.body, *there, true);
     search_.take_likely(likely.segment, likely.t);

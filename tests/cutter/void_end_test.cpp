@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cutter/search/swept_cutter.hpp"
 #include "tests/cutter/cutter_kinds.hpp"
@@ -36,18 +37,18 @@ ToolPath one_long_way(Draw& draw, int poses) {
   return path_through(all);
 }
 
-class VoidEndLaws : public testing::TestWithParam<const char*> {};
-
-TEST_P(VoidEndLaws, TheVoidEndsWhereTheWholeCoverDoes) {
-  constexpr double kLong = 300.0, kSame = 1e-6;  // mm
+// Of `rays` through each of `paths` paths.
+void expect_void_ends_with_the_cover(const cutter::Cutter& tool, std::uint32_t paths, int rays,
+                                     double same) {
+  constexpr double kLong = 300.0;  // mm
   int led_on = 0;
-  for (std::uint32_t p = 0; p < 12; ++p) {
+  for (std::uint32_t p = 0; p < paths; ++p) {
     Draw draw(77, p);
     const ToolPath path = p % 2 == 0 ? scattered_strokes(draw, 20 + 30 * static_cast<int>(p))
                                      : one_long_way(draw, 20 + 10 * static_cast<int>(p));
-    const auto swept = SweptCutter::sweep(path, {{1, kind_named(GetParam()).cutter}});
+    const auto swept = SweptCutter::sweep(path, {{1, tool}});
     ASSERT_TRUE(swept);
-    for (int k = 0; k < 100; ++k) {
+    for (int k = 0; k < rays; ++k) {
       const Ray ray{draw.point(kLow, kHigh), draw.direction()};
       const IntervalSet cover = swept->along(ray, {0.0, kLong});
       const bool starts_inside = !cover.intervals().empty() && cover.intervals().front().lo <= 1e-9;
@@ -55,13 +56,57 @@ TEST_P(VoidEndLaws, TheVoidEndsWhereTheWholeCoverDoes) {
       ASSERT_EQ(end.has_value(), starts_inside) << p << ' ' << k;
       if (!end) continue;
       ++led_on;
-      ASSERT_NEAR(std::min(end->s, kLong), cover.intervals().front().hi, kSame) << p << ' ' << k;
+      ASSERT_NEAR(std::min(end->s, kLong), cover.intervals().front().hi, same) << p << ' ' << k;
     }
   }
-  EXPECT_GT(led_on, 300);
+  EXPECT_GT(led_on, static_cast<int>(paths) * rays / 4);
+}
+
+class VoidEndLaws : public testing::TestWithParam<const char*> {};
+
+TEST_P(VoidEndLaws, TheVoidEndsWhereTheWholeCoverDoes) {
+  constexpr double kSame = 1e-6;  // mm
+  expect_void_ends_with_the_cover(kind_named(GetParam()).cutter, 12, 100, kSame);
+}
+
+class ConcaveVoidEndLaws : public testing::TestWithParam<const char*> {};
+
+TEST_P(ConcaveVoidEndLaws, TheVoidEndsWhereTheWholeCoverDoes) {
+  constexpr double kSame = 1e-4;  // mm: a ray that grazes, of 10 nm normal to the surface
+  expect_void_ends_with_the_cover(kind_named(GetParam()).cutter, 4, 40, kSame);
+}
+
+// A hollow end that comes down a ramp: the rim that trails cuts deepest, and a probe from above
+// meets what that left, not what the part above the hollow did.
+TEST(ConcaveVoidEnd, IsWhatTheTrailingRimOfAHollowEndLeaves) {
+  constexpr double kRadius = 10.0, kSame = 1e-8;  // mm
+  const Vec3 from(-45.0, -4.0, 16.0), to(45.0, 5.0, 10.0);
+  const ToolPath path = path_through({{from, Vec3::UnitZ()}, {to, Vec3::UnitZ()}});
+  const Vec3 at(7.765127, 0.1836998, 40.0);
+  // When the rim is there last: |at - tip| across = kRadius.
+  const Vec3 step = to - from, off = at - from;
+  const double a = step.head<2>().squaredNorm(), b = step.head<2>().dot(off.head<2>());
+  const double c = off.head<2>().squaredNorm() - kRadius * kRadius;
+  const double t = (b + std::sqrt(b * b - a * c)) / a;
+  for (const double end_angle : {5.0, 1.7, 0.5}) {
+    const auto tool = cutter::Cutter::make({.type = cutter::CutterType::flat,
+                                            .diameter = {2.0 * kRadius},
+                                            .length = {60.0},
+                                            .end_angle = {end_angle * kRadPerDeg}});
+    ASSERT_TRUE(tool);
+    const auto swept = SweptCutter::sweep(path, {{1, *tool}});
+    ASSERT_TRUE(swept);
+    const auto end = swept->end_of_void({at, -Vec3::UnitZ()}, 0.0, 40.0);
+    ASSERT_TRUE(end);
+    EXPECT_NEAR(at.z() - end->s, from.z() + t * step.z(), kSame) << end_angle;
+    EXPECT_NEAR(end->t, t, 1e-6) << end_angle;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, VoidEndLaws, testing::Values("ball", "flat", "barrel", "taper"),
+                         [](const auto& each) { return std::string(each.param); });
+INSTANTIATE_TEST_SUITE_P(Kinds, ConcaveVoidEndLaws,
+                         testing::Values("hollow", "waisted", "measured"),
                          [](const auto& each) { return std::string(each.param); });
 
 }  // namespace
