@@ -37,9 +37,9 @@ ToolPath one_long_way(Draw& draw, int poses) {
   return path_through(all);
 }
 
-// Of `rays` through each of `paths` paths.
+// Of `rays` through each of `paths` paths, more than `least` of which begin in the void.
 void expect_void_ends_with_the_cover(const cutter::Cutter& tool, std::uint32_t paths, int rays,
-                                     double same) {
+                                     double same, int least) {
   constexpr double kLong = 300.0;  // mm
   int led_on = 0;
   for (std::uint32_t p = 0; p < paths; ++p) {
@@ -59,21 +59,21 @@ void expect_void_ends_with_the_cover(const cutter::Cutter& tool, std::uint32_t p
       ASSERT_NEAR(std::min(end->s, kLong), cover.intervals().front().hi, same) << p << ' ' << k;
     }
   }
-  EXPECT_GT(led_on, static_cast<int>(paths) * rays / 4);
+  EXPECT_GT(led_on, least);
 }
 
 class VoidEndLaws : public testing::TestWithParam<const char*> {};
 
 TEST_P(VoidEndLaws, TheVoidEndsWhereTheWholeCoverDoes) {
   constexpr double kSame = 1e-6;  // mm
-  expect_void_ends_with_the_cover(kind_named(GetParam()).cutter, 12, 100, kSame);
+  expect_void_ends_with_the_cover(kind_named(GetParam()).cutter, 12, 100, kSame, 300);
 }
 
 class ConcaveVoidEndLaws : public testing::TestWithParam<const char*> {};
 
 TEST_P(ConcaveVoidEndLaws, TheVoidEndsWhereTheWholeCoverDoes) {
   constexpr double kSame = 1e-4;  // mm: a ray that grazes, of 10 nm normal to the surface
-  expect_void_ends_with_the_cover(kind_named(GetParam()).cutter, 4, 40, kSame);
+  expect_void_ends_with_the_cover(kind_named(GetParam()).cutter, 8, 60, kSame, 60);
 }
 
 // A hollow end that comes down a ramp: the rim that trails cuts deepest, and a probe from above
