@@ -233,7 +233,13 @@ class Cut {
       return Meshed{*std::move(fewer), {}, *std::move(mesh)};
     }
     auto faceted = faceted_surface(part, options_.facets);
-    if (!faceted) return faceted.error();
+    if (!faceted) {
+      Diagnostics problems = faceted.error();
+      for (Diagnostic& each : problems) {
+        if (each.line > 0 && each.file.empty()) each.file = job_.piece.program_file;
+      }
+      return problems;
+    }
     judge_surface(job_, faceted->mesh);
     return Meshed{std::move(faceted->mesh), faceted->bound, {}};
   }

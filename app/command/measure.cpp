@@ -204,9 +204,11 @@ Result<report::Evidence> evidence_of(const MeasureOptions& options, const Inspec
   return evidence;
 }
 
-// Only points of surfaces can do without what a plan does not say of its probing.
+// Only points of surfaces can do without what a plan does not say of its probing. What is written
+// says it.
 Result<metrology::ReadPlan> plan_of(const MeasureOptions& options, const std::string& bytes) {
-  const bool is_probing = !options.mesh.empty() || options.ball_centres;
+  const bool is_probing =
+      !options.mesh.empty() || options.ball_centres || !options.plan_export.empty();
   if (!is_probing) return metrology::parse_plan_for_points(bytes, options.plan);
   auto plan = metrology::parse_plan(bytes, options.plan);
   if (!plan) return std::move(plan).error();

@@ -171,6 +171,16 @@ std::optional<Diagnostic> short_of_baseline(const History& history) {
 }  // namespace
 
 Result<History> history_of(ResultFolder folder, const HistoryOptions& options) {
+  const auto is_judged = [&](const DatedResult& result) {
+    return !options.since || result.moment.day >= options.since->day;
+  };
+  if (!folder.results.empty() && std::ranges::none_of(folder.results, is_judged)) {
+    return error("out-of-range"_id,
+                 fmt::format("--since {}: no result is of that day or later, so that none would "
+                             "decide the exit code",
+                             options.since->text),
+                 fmt::format("the last is of {}", folder.results.back().moment.date()));
+  }
   Gathered gathered(folder);
   if (!gathered.faults().empty()) return gathered.faults();
   History history{.folder = std::move(folder), .options = options, .series = gathered.take()};

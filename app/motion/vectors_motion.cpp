@@ -23,11 +23,13 @@ constexpr report::Phrase kSigns(
     "     /                     more than these: along an axis its point is free.\n"
     "    Y\n");
 
-// Of a vector in the shown unit of `unit`, which its numbers times `factor` are in.
+// Of a vector in the shown unit of `unit`, which its numbers times `factor` are in; `decimals` of
+// millimetres, two more of inches.
 std::string vector_text(const Vec3& v, double factor, const char* unit, int decimals,
                         const report::Wording& words) {
+  const int more = words.shown(1.0, unit) < 0.1 ? 2 : 0;
   const auto one = [&](double value) {
-    return words.number(fixed_decimal(words.shown(value * factor, unit), decimals));
+    return words.number(fixed_decimal(words.shown(value * factor, unit), decimals + more));
   };
   return one(v.x()) + between(words) + one(v.y()) + between(words) + one(v.z());
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "metrology/points/line_words.hpp"
@@ -22,6 +23,16 @@ double as_millimetres(double mm) {
   }
   return mm;
 }
+
+// Units of length as programs name them.
+struct NamedUnit {
+  std::string_view name;
+  double mm;
+};
+constexpr std::array kUnits{NamedUnit{"mm", 1.0},         NamedUnit{"millimeter", 1.0},
+                            NamedUnit{"millimetre", 1.0}, NamedUnit{"inch", 25.4},
+                            NamedUnit{"in", 25.4},        NamedUnit{"m", 1000.0},
+                            NamedUnit{"meter", 1000.0},   NamedUnit{"metre", 1000.0}};
 
 std::string element_text(xml_node element) {
   const auto id = element.attribute("id");
@@ -60,6 +71,11 @@ std::optional<Diagnostic> QifDocument::take_root() {
     return fault(root_, "not-qif"_id, "is no <QIFDocument>",
                  "the root element of a QIF document is expected");
   }
+  for (xml_node next = root_.next_sibling(); next; next = next.next_sibling()) {
+    if (next.type() != pugi::node_element) continue;
+    return fault(next, "bad-xml"_id, "follows the root element",
+                 "one document is expected, with one root element");
+  }
   const std::string_view version = root_.attribute("versionQIF").value();
   if (version.starts_with("3.")) return std::nullopt;
   return fault(
@@ -73,13 +89,21 @@ std::optional<Diagnostic> QifDocument::take_unit() {
   // Without a conversion the unit is the SI's own.
   const xml_node factor = unit.child("UnitConversion").child("Factor");
   constexpr double kMmPerMetre = 1e3;
-  const double metres = factor ? factor.text().as_double() : 1.0;
-  if (!unit || !(metres > 0.0) || !std::isfinite(metres)) {
+  const auto stated = qif_numbers(qif_content(factor));
+  const bool is_number = !factor || (stated && stated->size() == 1);
+  const double metres = factor && is_number ? stated->front() : 1.0;
+  if (!unit || !is_number || !(metres > 0.0) || !std::isfinite(metres)) {
     return fault(unit ? unit : root_, "length-unit"_id, "states no unit of length",
                  "FileUnits/PrimaryUnits/LinearUnit says how many metres a unit is");
   }
   mm_ = as_millimetres(kMmPerMetre * metres);
-  return std::nullopt;
+  constexpr double kDigits = 1e-6;
+  const std::string name = qif_text(unit.child("UnitName"));
+  const auto* const known = std::ranges::find(kUnits, name, &NamedUnit::name);
+  if (known == kUnits.end() || std::abs(mm_ / known->mm - 1.0) < kDigits) return std::nullopt;
+  return fault(factor ? factor : unit, "length-unit"_id,
+               fmt::format("says that {} {} is {:g} mm", name == "inch" ? "an" : "a", name, mm_),
+               fmt::format("{:g} metres are expected", known->mm / kMmPerMetre));
 }
 
 QifDocument::Place QifDocument::place_at(std::size_t offset) const {
@@ -117,11 +141,20 @@ std::optional<std::vector<double>> qif_numbers(std::string_view text) {
   }
 }
 
+std::string qif_content(xml_node element) {
+  std::string content;
+  for (const xml_node part : element) {
+    const bool is_text = part.type() == pugi::node_pcdata || part.type() == pugi::node_cdata;
+    content += is_text ? part.value() : " ";
+  }
+  return content;
+}
+
 std::string qif_text(xml_node element) {
-  const std::string_view text = element.text().get();
+  const std::string text = qif_content(element);
   const std::size_t begin = text.find_first_not_of(kBlank);
   if (begin == text.npos) return {};
-  return std::string(text.substr(begin, text.find_last_not_of(kBlank) - begin + 1));
+  return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
 }
 
 }  // namespace frustum::metrology

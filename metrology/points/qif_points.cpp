@@ -97,8 +97,8 @@ class QifReader {
       return fault("binary-points"_id, "has no Points in text", "export them as decimal numbers");
     }
     // One flag for all points, or one each.
-    const std::string flags = std::string(set.child("Compensated").text().get()) + ' ' +
-                              set.child("Compensations").text().get();
+    const std::string flags =
+        qif_content(set.child("Compensated")) + ' ' + qif_content(set.child("Compensations"));
     const auto has = [&](const char* one, const char* other) {
       return flags.find(one) != flags.npos || flags.find(other) != flags.npos;
     };
@@ -116,7 +116,7 @@ class QifReader {
       return fault("compensated"_id, "is compensated for the radius of the ball",
                    "leave --ball-centres out");
     }
-    const auto numbers = qif_numbers(set.child("Points").text().get());
+    const auto numbers = qif_numbers(qif_content(set.child("Points")));
     if (!numbers || numbers->size() % 3 != 0) {
       return fault("bad-numbers"_id, "is no list of x y z", "three finite numbers a point");
     }

@@ -29,6 +29,12 @@ Pose framed(const ToolPose& pose, const Vec3& across) {
   return {rotation, pose.tip};
 }
 
+Diagnostic at_block(Diagnostic failure, const kinematics::PathBlock& block) {
+  failure.line = static_cast<int>(block.source_line);
+  if (block.source_file) failure.file = *block.source_file;
+  return failure;
+}
+
 // Least and largest of some displacements along a normal.
 struct Range {
   double lo = std::numeric_limits<double>::infinity();
@@ -271,20 +277,18 @@ Result<std::vector<ConvexPiece>> faceted_sweep(const ToolPath& path,
     const kinematics::PathBlock& block = path.blocks[first.block];
     const auto body = bodies.find(block.tool);
     if (body == bodies.end()) {
-      Diagnostic failure =
+      return at_block(
           error("unknown-tool"_id, fmt::format("tool T{} cuts but is not defined", block.tool),
-                fmt::format("add tool.{} with type, diameter and length", block.tool));
-      failure.line = static_cast<int>(block.source_line);
-      return failure;
+                fmt::format("add tool.{} with type, diameter and length", block.tool)),
+          block);
     }
     if (!cutters.at(block.tool).body().concave().empty()) {
-      Diagnostic failure =
+      return at_block(
           error("polyhedral-concave-tool"_id,
                 fmt::format("the polyhedral engine cannot take tool T{}: its generatrix is concave",
                             block.tool),
-                "it takes bodies made of convex parts; the ray engine takes this one");
-      failure.line = static_cast<int>(block.source_line);
-      return failure;
+                "it takes bodies made of convex parts; the ray engine takes this one"),
+          block);
     }
     if (pose_before != first.first_pose) sweep.begin_at(path.from(first));
     const Run run = merged_run(path, next, cutters.at(block.tool).body().reach(),
@@ -292,12 +296,11 @@ Result<std::vector<ConvexPiece>> faceted_sweep(const ToolPath& path,
     const kinematics::PathSegment& last = path.segments[run.last - 1];
     sweep.add(body->second, path.from(first), path.to(last), run.apart);
     if (sweep.overfull()) {
-      Diagnostic failure =
+      return at_block(
           error("polyhedral-pieces"_id,
                 fmt::format("the polyhedral sweep needs more than {} hulls", options.max_pieces),
-                fmt::format("a facet tolerance above {} mm needs fewer", options.tolerance.value));
-      failure.line = static_cast<int>(block.source_line);
-      return failure;
+                fmt::format("a facet tolerance above {} mm needs fewer", options.tolerance.value)),
+          block);
     }
     pose_before = last.first_pose + 1;
     next = run.last;

@@ -248,6 +248,8 @@ TEST_F(HistorySystem, RefusesWhatHasNoOrder) {
   fs::create_directories(folder_ / "empty");
   expect_refusal("history empty", {"holds no result"});
   expect_refusal("history same --since May", {"--since May: no date"});
+  expect_refusal("history same --since 2126-01-01",
+                 {"--since 2126-01-01: no result is of that day or later"});
   expect_refusal("history same --baseline 3", {"--baseline 3: too few"});
 }
 

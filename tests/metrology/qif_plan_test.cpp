@@ -176,6 +176,38 @@ TEST(QifPlan, IsRefusedWithThePlaceOfTheFault) {
             "FileUnits/PrimaryUnits/LinearUnit says how many metres a unit is)");
 }
 
+// What XML allows, and what it does not: no number becomes another one without a word.
+TEST(QifPlan, ReadsNumbersWhole) {
+  const auto commented =
+      parse_qif_plan(foreign_with("<Diameter>2<", "<Diameter>0<!-- was 3 --><?keep?>2<"), "p.qif");
+  ASSERT_TRUE(commented) << to_string(commented.error().front());
+  EXPECT_EQ(commented->plan.features[1].radius, 25.4);
+  EXPECT_EQ(plan_refusal(foreign_with("<Diameter>2<", "<Diameter>2<b/>0<")),
+            "p.qif:21:1: error: <Diameter> is '2 0' (hint: one finite number is expected)");
+  EXPECT_EQ(plan_refusal(foreign_with("<Diameter>2</Diameter>",
+                                      "<Diameter>2</Diameter><Diameter>4</Diameter>")),
+            "p.qif:21:23: error: <Diameter> is there twice (hint: it is expected once)");
+  EXPECT_EQ(plan_refusal(foreign_with("<Factor>0.0254<", "<Factor>0.001<")),
+            "p.qif:9:17: error: <Factor> says that an inch is 1 mm (hint: 0.0254 metres are "
+            "expected)");
+  EXPECT_EQ(plan_refusal(std::string(kForeignQif) + "<QIFDocument/>").substr(0, 60),
+            "p.qif:56:1: error: <QIFDocument> follows the root element (h");
+}
+
+TEST(QifPlan, RefusesADatumThatTheFrameContradicts) {
+  const std::string of_one = "<FeatureNominalIds n=\"1\"><Id>5</Id></FeatureNominalIds></Perpend";
+  std::string text = foreign_with(
+      of_one, "<FeatureNominalIds n=\"2\"><Id>5</Id><Id>2</Id></FeatureNominalIds></Perpend");
+  EXPECT_TRUE(parse_qif_plan(text, "p.qif")) << "they agree";
+  const std::string of_datum =
+      "<FeatureNominalIds n=\"1\"><Id>2</Id></FeatureNominalIds></DatumDef";
+  text.replace(text.find(of_datum), of_datum.size(),
+               "<FeatureNominalIds n=\"1\"><Id>5</Id></FeatureNominalIds></DatumDef");
+  EXPECT_EQ(plan_refusal(text),
+            "p.qif:35:1: error: <PerpendicularityCharacteristicDefinition id=\"20\"> has the datum "
+            "'bore' by its frame, 'top' as second feature (hint: one datum is expected)");
+}
+
 std::string with_attribute(const std::string& name, const std::string& value) {
   const std::string item = "<CylinderFeatureItem id=\"6\">";
   return foreign_with(item, item + "<Attributes n=\"1\"><AttributeStr name=\"" + name +

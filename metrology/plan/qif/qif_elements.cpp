@@ -21,7 +21,8 @@ void QifElements::take_angular_unit() {
   angle_unit_ = qif_text(unit.child("UnitName"));
   const xml_node factor = unit.child("UnitConversion").child("Factor");
   if (!factor) return;
-  rad_ = factor.text().as_double();
+  const auto stated = qif_numbers(qif_content(factor));
+  rad_ = stated && stated->size() == 1 ? stated->front() : 0.0;
   // A degree in however many digits.
   constexpr double kDigits = 1e-6;
   if (std::abs(rad_ / kRadPerDeg - 1.0) < kDigits) rad_ = kRadPerDeg;
@@ -62,6 +63,11 @@ xml_node QifElements::referred(xml_node from, const char* name, std::string_view
   return {};
 }
 
+void QifElements::refuse_second(xml_node element) {
+  const xml_node second = element.next_sibling(element.name());
+  if (second) note(second, "bad-numbers"_id, "is there twice", "it is expected once");
+}
+
 double QifElements::number(xml_node parent, const char* name, const char* unit_attribute,
                            const std::string& unit) {
   const xml_node element = parent.child(name);
@@ -69,7 +75,8 @@ double QifElements::number(xml_node parent, const char* name, const char* unit_a
     note(parent, "missing-element"_id, fmt::format("has no <{}>", name), "a number is expected");
     return 1.0;
   }
-  const auto numbers = qif_numbers(element.text().get());
+  refuse_second(element);
+  const auto numbers = qif_numbers(qif_content(element));
   if (!numbers || numbers->size() != 1) {
     note(element, "bad-numbers"_id, fmt::format("is '{}'", qif_text(element)),
          "one finite number is expected");
@@ -106,7 +113,8 @@ Vec3 QifElements::triple(xml_node parent, const char* name) {
          "three numbers are expected");
     return Vec3::UnitZ();
   }
-  const auto numbers = qif_numbers(element.text().get());
+  refuse_second(element);
+  const auto numbers = qif_numbers(qif_content(element));
   if (numbers && numbers->size() == 3) return {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
   note(element, "bad-numbers"_id, fmt::format("is '{}'", qif_text(element)),
        "three finite numbers are expected");

@@ -44,6 +44,7 @@ class QifElements {
   double number(pugi::xml_node parent, const char* name, const char* unit_attribute,
                 const std::string& unit);
   Vec3 triple(pugi::xml_node parent, const char* name);
+  void refuse_second(pugi::xml_node element);
   void take_angular_unit();
 
   const QifDocument& document_;

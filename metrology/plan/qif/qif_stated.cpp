@@ -66,6 +66,11 @@ class StatedReader {
     for (const xml_node item : features.child("FeatureItems").children()) {
       if (item.type() == pugi::node_element) take_feature(item);
     }
+    const xml_node definitions = characteristics.child("CharacteristicDefinitions");
+    if (definitions.first_child() && !characteristics.child("CharacteristicItems").first_child()) {
+      e_.note(definitions, "qif-plan"_id, "are of no characteristic",
+              "Characteristics/CharacteristicItems, which are what is evaluated, are expected");
+    }
     for (const xml_node item : characteristics.child("CharacteristicItems").children()) {
       if (item.type() == pugi::node_element) take_characteristic(item);
     }
@@ -268,6 +273,12 @@ class StatedReader {
         c.kind != CharacteristicKind::surface_profile &&
         c.kind != CharacteristicKind::line_profile) {
       if (c.features.size() == 1) c.features.push_back(datums.front());
+      if (c.features.size() == 2 && c.features.back() != datums.front()) {
+        e_.note(definition, "bad-reference"_id,
+                fmt::format("has the datum '{}' by its frame, '{}' as second feature",
+                            datums.front(), c.features.back()),
+                "one datum is expected");
+      }
       return;
     }
     datums.resize(3);
