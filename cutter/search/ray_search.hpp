@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "cutter/body/body.hpp"
-#include "cutter/search/end_fan.hpp"
 #include "cutter/search/pose_tree.hpp"
 #include "cutter/sweep/segment_sweep.hpp"
 #include "kinematics/path/tool_path.hpp"
@@ -56,16 +55,5 @@ struct RayQuestion {
 // already.
 void extend_swept_interval(const RayQuestion& question, const ToolSweep& sweep,
                            std::vector<SweptInterval>& swept);
-
-// Moves `front` up to the end of what covers it without a gap; false if nothing does. Gaps of less
-// than `gap` are passed over. Begun with what is likely at the front; ends that differ by rounding
-// may depend on that, and so on segments that cover nothing of the ray.
-bool advance_front(const RayQuestion& question, const ToolSweep& sweep, double gap,
-                   SweptIntervalEnd& front);
-// The same where nothing else counts than `groups`, begun with the segments in `first` alone.
-// `fans`: of these groups at ends near by, or null; those that are missing are added.
-bool advance_front(const RayQuestion& question, const ToolSweep& sweep, double gap,
-                   std::span<const std::uint32_t> groups, std::span<const std::uint32_t> first,
-                   EndFans* fans, SweptIntervalEnd& front);
 
 }  // namespace frustum::cutter

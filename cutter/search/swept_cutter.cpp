@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "cutter/search/front_search.hpp"
 #include "cutter/search/ray_tile.hpp"
 #include "cutter/sweep/concave_sweep.hpp"
 #include "cutter/sweep/segment_sweep.hpp"

@@ -23,6 +23,7 @@
 #include "core/ray.hpp"
 #include "core/result.hpp"
 #include "cutter/body/cutter.hpp"
+#include "cutter/search/end_fan.hpp"
 #include "cutter/search/ray_search.hpp"
 #include "cutter/search/sweep_contact.hpp"
 #include "kinematics/path/tool_path.hpp"

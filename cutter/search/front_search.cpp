@@ -1,0 +1,269 @@
+#include "cutter/search/front_search.hpp"
+
+#include <optional>
+#include <vector>
+
+#include "core/constants.hpp"
+#include "cutter/search/axis_distance.hpp"
+#include "cutter/search/group_search.hpp"
+#include "cutter/search/path_climb.hpp"
+#include "cutter/search/pose_descent.hpp"
+#include "cutter/search/separating_plane.hpp"
+#include "cutter/search/whole_sweep.hpp"
+
+namespace frustum::cutter {
+namespace {
+
+// Only what continues the swept interval from the front.
+class Front {
+ public:
+  Front(const RayQuestion& question, const Body& body, const EndPlanes& planes, double gap,
+        SweptIntervalEnd& front)
+      : span_(question.span),
+        planes_(planes),
+        start_(question.ray.at(front.s), body),
+        has_concave_(!body.concave().empty()),
+        gap_(gap),
+        front_(front) {}
+
+  [[nodiscard]] RaySpan span() const { return {front_.s - gap_, span_.hi}; }
+
+  [[nodiscard]] bool wants_lo(double lo) const { return lo > front_.s + gap_; }
+  [[nodiscard]] static double promise(const GroupReach& reach) { return reach.hi; }
+  [[nodiscard]] int change() const { return change_; }
+
+  // What begins beyond the front is asked again when the front has come there.
+  static constexpr bool kSolvesWhole = false;
+  [[nodiscard]] static RaySpan counted(const GroupReach& reach) {
+    return {reach.lo, reach.hi - reach.hi_slack};
+  }
+  [[nodiscard]] bool wants(std::uint32_t group, const RaySpan& counted) {
+    if (!(counted.lo <= counted.hi) || counted.hi <= front_.s) return false;
+    if (counted.lo <= front_.s + gap_) return true;
+    deferred_.push_back({counted.lo, group});
+    return false;
+  }
+  [[nodiscard]] bool wants_piece(std::uint32_t group, double lo, double hi) {
+    return wants(group, {lo, hi});
+  }
+
+  // Whatever a group covers before the front does not matter.
+  [[nodiscard]] QuadLimit limit(const GroupQuad& groups, const QuadSpan&) {
+    if (change_ == 0) return limit_at_start(groups);
+    const Overreach over = plane().overreach(groups);
+    const auto of = [&](std::size_t lane) {
+      return GroupLimit{over.most[lane] <= 0.0,
+                        over.height[lane] < 0.0 || over.most[lane] == kInfinity,
+                        front_.s + over.most[lane]};
+    };
+    return {of(0), of(1), of(2), of(3)};
+  }
+  [[nodiscard]] double room(std::uint32_t segment, const ToolPose& from, const ToolPose& to) {
+    if (change_ == 0) return -kInfinity;
+    return segment == solved_ ? 0.0 : plane().room(from, to);
+  }
+  [[nodiscard]] DoubleFour rooms(const LeafMotions& leaf) {
+    if (change_ == 0) return four_of(-kInfinity);
+    DoubleFour rooms = plane().rooms(leaf.motions, kSearchTolerance);
+    for (std::size_t lane = 0; lane < leaf.count; ++lane) {
+      if (leaf.segments[lane] == solved_) rooms[lane] = 0.0;
+    }
+    return rooms;
+  }
+
+  [[nodiscard]] std::span<const Chord> known() {
+    known_ = {-kInfinity, front_.s};
+    return {&known_, 1};
+  }
+  [[nodiscard]] std::span<const Chord> floors() { return known(); }
+  void take_solved(const SweptInterval& next) {
+    take(next);
+    // Of a body with concave sections that is only what its parts cover.
+    if (has_concave_) return;
+    if (next.hi.s == front_.s && next.hi.segment == front_.segment) solved_ = front_.segment;
+  }
+
+  // What begins beyond the front counts when the front has come there.
+  void take(const SweptInterval& next) {
+    if (next.hi.s <= front_.s) return;
+    if (next.lo.s > front_.s + gap_) {
+      ahead_.push_back(next);
+      return;
+    }
+    move_to(next.hi);
+    for (std::size_t i = 0; i < ahead_.size();) {
+      if (ahead_[i].lo.s > front_.s + gap_) {
+        ++i;
+        continue;
+      }
+      const SweptIntervalEnd end = ahead_[i].hi;
+      ahead_[i] = ahead_.back();
+      ahead_.pop_back();
+      if (end.s > front_.s) {
+        move_to(end);
+        i = 0;
+      }
+    }
+  }
+
+  // A group that the front has come up to since it was put aside.
+  [[nodiscard]] std::optional<std::uint32_t> next_deferred() {
+    for (std::size_t i = 0; i < deferred_.size(); ++i) {
+      if (deferred_[i].lo > front_.s + gap_) continue;
+      const std::uint32_t group = deferred_[i].group;
+      deferred_.erase(deferred_.begin() + static_cast<std::ptrdiff_t>(i));
+      return group;
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool moved() const { return change_ > 0; }
+  [[nodiscard]] const SweptIntervalEnd& end() const { return front_; }
+  // Precondition: it has moved.
+  [[nodiscard]] const SeparatingPlane& plane() {
+    if (!plane_) plane_ = planes_.at(front_, true);
+    return *plane_;
+  }
+
+ private:
+  void move_to(const SweptIntervalEnd& end) {
+    front_ = end;
+    solved_.reset();
+    plane_.reset();
+    ++change_;
+  }
+
+  // What no cutter of which is at the front begins beyond it, if at all.
+  [[nodiscard]] QuadLimit limit_at_start(const GroupQuad& groups) const {
+    const auto away = start_.are_away(groups);
+    QuadLimit limits;
+    for (std::size_t lane = 0; lane < kSiblings; ++lane) {
+      if (!away[lane]) continue;
+      limits[lane].counts_representative = false;
+      limits[lane].lo = front_.s + 2.0 * gap_;
+    }
+    return limits;
+  }
+
+  struct Deferred {
+    double lo;
+    std::uint32_t group;
+  };
+  RaySpan span_;
+  const EndPlanes& planes_;
+  AxisDistance start_;  // of where the front was at first
+  bool has_concave_;
+  double gap_;
+  SweptIntervalEnd& front_;
+  std::optional<SeparatingPlane> plane_{};  // at the front; made when first asked for
+  std::vector<Deferred> deferred_{};
+  std::vector<SweptInterval> ahead_{};
+  std::optional<std::uint32_t> solved_{};  // the segment that the front is an end of
+  Chord known_{};
+  int change_ = 0;
+};
+
+// What fans hold back of a list of groups as the front moves. A fan is made where the front is
+// before any group is asked, and only there: so the fans that later rays find do not depend on
+// groups of the list that cover nothing of this one.
+class FrontFans {
+ public:
+  FrontFans(Front& goal, const ToolSweep& sweep, std::span<const std::uint32_t> groups,
+            EndFans* fans)
+      : goal_(goal), fans_(fans) {
+    if (fans_ == nullptr || !goal_.moved()) return;
+    look(fans_->of(maker(), goal_.plane(), sweep.tree.quads(), groups));
+  }
+
+  [[nodiscard]] bool hold(std::size_t i) {
+    if (fans_ == nullptr || !goal_.moved()) return false;
+    if (goal_.change() != change_) look(fans_->near_by(maker(), goal_.plane()));
+    return fan_ != nullptr && fan_->holds(i, at_);
+  }
+
+ private:
+  [[nodiscard]] EndFans::Maker maker() const { return {goal_.end().section, goal_.end().face}; }
+  void look(const EndFan* fan) {
+    change_ = goal_.change();
+    fan_ = fan;
+    if (fan_ != nullptr) at_ = fan_->beside(goal_.plane().end(), goal_.plane().beyond());
+  }
+
+  Front& goal_;
+  EndFans* fans_;
+  const EndFan* fan_ = nullptr;
+  EndFan::Beside at_{};
+  int change_ = 0;
+};
+
+// Segments are asked first, the groups then.
+class FrontSearch {
+ public:
+  FrontSearch(const RayQuestion& question, const ToolSweep& sweep, double gap,
+              SweptIntervalEnd& front)
+      : question_(question),
+        sweep_(sweep),
+        planes_(question, *sweep.body),
+        goal_(question, *sweep.body, planes_, gap, front),
+        search_(question, sweep, goal_) {}
+
+  // From a segment along the path to what likely makes the end.
+  void climb_from(std::uint32_t segment) {
+    const std::uint32_t likely = climbed(question_, *sweep_.body, segment, true).segment;
+    search_.solve_parts(likely);
+    if (!goal_.moved() || goal_.end().segment != likely) return;
+    if (const auto next = next_at(question_, likely, goal_.end().t)) search_.solve_parts(*next);
+  }
+
+  // On to what likely is at a point, and from there along the path.
+  void descend_to(const Vec3& point) {
+    const auto there = likely_segment_at(point, question_, sweep_);
+    if (!there) return;
+    const ClimbTop likely = climbed(question_, *sweep_.body, *there, true);
+    search_.take_likely(likely.segment, likely.t);
+  }
+
+  void ask(std::span<const std::uint32_t> groups, EndFans* fans) {
+    FrontFans held(goal_, sweep_, groups, fans);
+    search_.open(groups, [&](std::size_t i) { return held.hold(i); });
+    if (!goal_.moved()) {
+      // The first pose that covers anything is mostly on the way to what makes the end.
+      search_.run_until([&] { return goal_.moved(); });
+      if (goal_.moved()) climb_from(goal_.end().segment);
+    }
+    search_.finish();
+    while (const auto group = goal_.next_deferred()) search_.run(*group);
+  }
+
+  [[nodiscard]] bool moved() const { return goal_.moved(); }
+
+ private:
+  const RayQuestion& question_;
+  const ToolSweep& sweep_;
+  EndPlanes planes_;
+  Front goal_;
+  GroupSearch<Front> search_;
+};
+
+}  // namespace
+
+bool advance_front(const RayQuestion& question, const ToolSweep& sweep, double gap,
+                   SweptIntervalEnd& front) {
+  if (sweep.tree.empty()) return false;
+  FrontSearch search(question, sweep, gap, front);
+  search.descend_to(question.ray.at(front.s));
+  constexpr std::uint32_t kRoot = 0;
+  search.ask({&kRoot, 1}, nullptr);
+  return search.moved();
+}
+
+bool advance_front(const RayQuestion& question, const ToolSweep& sweep, double gap,
+                   std::span<const std::uint32_t> groups, std::span<const std::uint32_t> first,
+                   EndFans* fans, SweptIntervalEnd& front) {
+  FrontSearch search(question, sweep, gap, front);
+  for (const std::uint32_t segment : first) search.climb_from(segment);
+  search.ask(groups, fans);
+  return search.moved();
+}
+
+}  // namespace frustum::cutter
