@@ -41,9 +41,9 @@ struct GroupLimit {
 // Of the groups of a quad.
 using QuadLimit = std::array<GroupLimit, kSiblings>;
 
-// Segments of a leaf, up to four; in lanes from `count` on the first of them.
+// The segments of a leaf; in lanes from `count` on the first of them.
 struct LeafMotions {
-  std::array<std::uint32_t, kSiblings> segments{};
+  std::array<std::uint32_t, kMostInLeaf> segments{};
   MotionFour motions{};
   std::size_t count = 0;
 };
@@ -325,20 +325,17 @@ class GroupSearch {
       double room;
       std::uint32_t segment;
     };
+    const LeafMotions leaf = motions_of(segments);
+    if (leaf.count == 0) return;
+    const DoubleFour rooms = goal_.rooms(leaf);
     std::array<Open, kMostInLeaf> open;
     std::size_t count = 0;
-    for (std::size_t next = 0; next < segments.size(); next += kSiblings) {
-      const LeafMotions leaf = motions_of(
-          segments.subspan(next, std::min<std::size_t>(kSiblings, segments.size() - next)));
-      if (leaf.count == 0) continue;
-      const DoubleFour rooms = goal_.rooms(leaf);
-      for (std::size_t lane = 0; lane < leaf.count; ++lane) {
-        if (rooms[lane] >= 0.0) continue;
-        const double room = leaf.segments[lane] == likely_ ? -kInfinity : rooms[lane];
-        std::size_t at = count++;
-        for (; at > 0 && open[at - 1].room > room; --at) open[at] = open[at - 1];
-        open[at] = {room, leaf.segments[lane]};
-      }
+    for (std::size_t lane = 0; lane < leaf.count; ++lane) {
+      if (rooms[lane] >= 0.0) continue;
+      const double room = leaf.segments[lane] == likely_ ? -kInfinity : rooms[lane];
+      std::size_t at = count++;
+      for (; at > 0 && open[at - 1].room > room; --at) open[at] = open[at - 1];
+      open[at] = {room, leaf.segments[lane]};
     }
     const int change = goal_.change();
     for (std::size_t i = 0; i < count; ++i) {
@@ -352,7 +349,7 @@ class GroupSearch {
     for (const std::uint32_t segment : segments) {
       if (segment < question_.first_excluded) leaf.segments[leaf.count++] = segment;
     }
-    for (std::size_t lane = 0; lane < kSiblings && leaf.count > 0; ++lane) {
+    for (std::size_t lane = 0; lane < kMostInLeaf && leaf.count > 0; ++lane) {
       const auto& segment = path.segments[leaf.segments[lane < leaf.count ? lane : 0]];
       leaf.motions.set(lane, path.from(segment), path.to(segment));
     }

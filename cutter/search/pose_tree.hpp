@@ -24,7 +24,7 @@
 namespace frustum::cutter {
 
 // Segments of a leaf.
-inline constexpr std::uint32_t kMostInLeaf = 8;
+inline constexpr std::uint32_t kMostInLeaf = 4;
 
 class PoseTree {
  public:
