@@ -1,8 +1,8 @@
 // How far a point is from the axes of the cutters of four groups: whether any of them may be there.
 //
-// Model    : from tip to height the axis is a line, and no point of a cutter is farther from it than
-//            the largest radius. Of the other poses of a group the axis is nowhere farther from the
-//            middle's than the tip may move and what the turn makes over the reach
+// Model    : from tip to height the axis is a line, and no point of a cutter is farther from it
+//            than the largest radius. Of the other poses of a group the axis is nowhere farther
+//            from the middle's than the tip may move and what the turn makes over the reach
 // Units    : mm; frame: workpiece
 // Errors   : none
 // Accuracy : in single precision, on the safe side of that

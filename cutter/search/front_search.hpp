@@ -1,8 +1,8 @@
 // How far what covers a place of a ray goes on without a gap.
 //
-// Model    : a front that moves along the ray: to the end of what covers it, as long as anything does.
-//            It is led by what is likely there, so that most groups of poses are held back by a plane
-//            that is nearly final when they are looked at
+// Model    : a front that moves along the ray: to the end of what covers it, as long as anything
+//            does. It is led by what is likely there, so that most groups of poses are held back by
+//            a plane that is nearly final when they are looked at
 // Units    : mm along the ray; frame: workpiece
 // Errors   : none
 // Accuracy : as ray_search.hpp
