@@ -188,10 +188,10 @@ TEST(QifPlan, ReadsNumbersWhole) {
                                       "<Diameter>2</Diameter><Diameter>4</Diameter>")),
             "p.qif:21:23: error: <Diameter> is there twice (hint: it is expected once)");
   EXPECT_EQ(plan_refusal(foreign_with("<Factor>0.0254<", "<Factor>0.001<")),
-            "p.qif:9:17: error: <Factor> says that an inch is 1 mm (hint: 0.0254 metres are "
+            "p.qif:8:17: error: <Factor> says that an inch is 1 mm (hint: 0.0254 metres are "
             "expected)");
   EXPECT_EQ(plan_refusal(std::string(kForeignQif) + "<QIFDocument/>").substr(0, 60),
-            "p.qif:56:1: error: <QIFDocument> follows the root element (h");
+            "p.qif:57:1: error: <QIFDocument> follows the root element (h");
 }
 
 TEST(QifPlan, RefusesADatumThatTheFrameContradicts) {
@@ -204,7 +204,7 @@ TEST(QifPlan, RefusesADatumThatTheFrameContradicts) {
   text.replace(text.find(of_datum), of_datum.size(),
                "<FeatureNominalIds n=\"1\"><Id>5</Id></FeatureNominalIds></DatumDef");
   EXPECT_EQ(plan_refusal(text),
-            "p.qif:35:1: error: <PerpendicularityCharacteristicDefinition id=\"20\"> has the datum "
+            "p.qif:36:1: error: <PerpendicularityCharacteristicDefinition id=\"20\"> has the datum "
             "'bore' by its frame, 'top' as second feature (hint: one datum is expected)");
 }
 
