@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/constants.hpp"
-#include "cutter/search/prefetch.hpp"
 
 namespace frustum::cutter {
 namespace {
@@ -17,15 +16,7 @@ constexpr std::int64_t kFarthest = 256;
 class Climb {
  public:
   Climb(const RayQuestion& question, const Body& body, std::uint32_t segment, bool leaving)
-      : question_(question), body_(body), segment_(segment), leaving_(leaving) {
-    // Mostly it does not go far.
-    constexpr std::uint32_t kBefore = 3, kAround = 8;
-    const auto& poses = question.path->poses;
-    const std::uint32_t first = question.path->segments[segment].first_pose;
-    if (first < kBefore || first - kBefore + kAround > poses.size()) return;
-    fetch(&poses[first - kBefore], kAround);
-    fetch(&question.path->blocks[question.path->segments[segment].block], 1);
-  }
+      : question_(question), body_(body), segment_(segment), leaving_(leaving) {}
 
   [[nodiscard]] ClimbTop top() const {
     Place before = at(0), best = at(1);

@@ -22,8 +22,6 @@ std::optional<std::uint32_t> likely_segment_at(const Vec3& point, const RayQuest
     if (best == kSiblings) return std::nullopt;
     if (groups.count[best] > 0) {
       const std::uint32_t middle = groups.representative_segment[best];
-      fetch(&question.path->segments[middle], 1);
-      fetch(&question.path->poses[groups.representative_pose[best]], 3);
       return middle < question.first_excluded ? middle : groups.earliest[best];
     }
     quad = groups.next[best];
