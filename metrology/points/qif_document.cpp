@@ -89,7 +89,7 @@ std::optional<Diagnostic> QifDocument::take_unit() {
   // Without a conversion the unit is the SI's own.
   const xml_node factor = unit.child("UnitConversion").child("Factor");
   constexpr double kMmPerMetre = 1e3;
-  const auto stated = qif_numbers(qif_content(factor));
+  const auto stated = qif_numbers(factor);
   const bool is_number = !factor || (stated && stated->size() == 1);
   const double metres = factor && is_number ? stated->front() : 1.0;
   if (!unit || !is_number || !(metres > 0.0) || !std::isfinite(metres)) {
@@ -148,6 +148,10 @@ std::string qif_content(xml_node element) {
     content += is_text ? part.value() : " ";
   }
   return content;
+}
+
+std::optional<std::vector<double>> qif_numbers(xml_node element) {
+  return qif_numbers(std::string_view(qif_content(element)));
 }
 
 std::string qif_text(xml_node element) {

@@ -54,6 +54,7 @@ class QifDocument {
 [[nodiscard]] std::optional<std::vector<double>> qif_numbers(std::string_view text);
 // All text of an element, that before and after comments too; a blank for each element in it.
 [[nodiscard]] std::string qif_content(pugi::xml_node element);
+[[nodiscard]] std::optional<std::vector<double>> qif_numbers(pugi::xml_node element);
 // Without blanks before and after, as xs:token is read.
 [[nodiscard]] std::string qif_text(pugi::xml_node element);
 

@@ -116,7 +116,7 @@ class QifReader {
       return fault("compensated"_id, "is compensated for the radius of the ball",
                    "leave --ball-centres out");
     }
-    const auto numbers = qif_numbers(qif_content(set.child("Points")));
+    const auto numbers = qif_numbers(set.child("Points"));
     if (!numbers || numbers->size() % 3 != 0) {
       return fault("bad-numbers"_id, "is no list of x y z", "three finite numbers a point");
     }

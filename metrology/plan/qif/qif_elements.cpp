@@ -21,7 +21,7 @@ void QifElements::take_angular_unit() {
   angle_unit_ = qif_text(unit.child("UnitName"));
   const xml_node factor = unit.child("UnitConversion").child("Factor");
   if (!factor) return;
-  const auto stated = qif_numbers(qif_content(factor));
+  const auto stated = qif_numbers(factor);
   rad_ = stated && stated->size() == 1 ? stated->front() : 0.0;
   // A degree in however many digits.
   constexpr double kDigits = 1e-6;
@@ -76,7 +76,7 @@ double QifElements::number(xml_node parent, const char* name, const char* unit_a
     return 1.0;
   }
   refuse_second(element);
-  const auto numbers = qif_numbers(qif_content(element));
+  const auto numbers = qif_numbers(element);
   if (!numbers || numbers->size() != 1) {
     note(element, "bad-numbers"_id, fmt::format("is '{}'", qif_text(element)),
          "one finite number is expected");
@@ -114,7 +114,7 @@ Vec3 QifElements::triple(xml_node parent, const char* name) {
     return Vec3::UnitZ();
   }
   refuse_second(element);
-  const auto numbers = qif_numbers(qif_content(element));
+  const auto numbers = qif_numbers(element);
   if (numbers && numbers->size() == 3) return {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
   note(element, "bad-numbers"_id, fmt::format("is '{}'", qif_text(element)),
        "three finite numbers are expected");
