@@ -54,30 +54,32 @@ bool surely_apart(const Profile& body, const ToolPose& a, const ToolPose& b, dou
 
 // The best of the planes along the ray: maximises the gap over the angle of its normal.
 SeparatingPlane separate(const Profile& body, const ToolPose& pose, const Ray& ray) {
+  const auto gap_at = [&](const Vec3& normal) { return gap_of(normal, body, pose, ray); };
   const Vec3 e1 = perpendicular_to(ray.direction);
   const Vec3 e2 = ray.direction.cross(e1);
-  const auto normal_at = [&](double psi) -> Vec3 {
-    return std::cos(psi) * e1 + std::sin(psi) * e2;
-  };
-  const auto gap_at = [&](double psi) { return gap_of(normal_at(psi), body, pose, ray); };
-  constexpr int kCoarse = 12;
-  constexpr double kStep = 2.0 * std::numbers::pi / kCoarse;
-  double best_psi = 0.0;
-  double best_gap = -kInfinity;
-  for (int i = 0; i < kCoarse; ++i) {
-    const double g = gap_at(i * kStep);
-    if (g > best_gap) {
-      best_gap = g;
-      best_psi = i * kStep;
+  // Every thirty degrees, by their cosines and sines.
+  constexpr double kTall = 0.5 * std::numbers::sqrt3;
+  constexpr std::array<std::array<double, 2>, 3> kQuarter{{{1.0, 0.0}, {kTall, 0.5}, {0.5, kTall}}};
+  SeparatingPlane best{e1, -kInfinity};
+  for (const auto& [c, s] : kQuarter) {
+    for (const Vec3& normal : {Vec3(c * e1 + s * e2), Vec3(c * e2 - s * e1)}) {
+      for (const double side : {1.0, -1.0}) {
+        const double gap = gap_at(side * normal);
+        if (gap > best.gap) best = {side * normal, gap};
+      }
     }
   }
-  // To 1e-7 rad, where the gap is flat within rounding.
+  // Between its neighbours, by the tangent of the angle: to 1e-7, where the gap is flat within
+  // rounding.
+  constexpr double kTangent = 1.0 / std::numbers::sqrt3;
   constexpr int kBits = 24;
-  const auto [psi, loss] = boost::math::tools::brent_find_minima(
-      [&](double at) { return -gap_at(at); }, best_psi - kStep, best_psi + kStep, kBits);
-  if (-loss < best_gap) return {normal_at(best_psi), best_gap};
-  const Vec3 normal = normal_at(psi);
-  return {normal, -loss};
+  const Vec3 middle = best.normal, across = ray.direction.cross(middle);
+  const auto beside = [&](double tangent) -> Vec3 {
+    return (middle + tangent * across) / std::sqrt(1.0 + tangent * tangent);
+  };
+  const auto [tangent, loss] = boost::math::tools::brent_find_minima(
+      [&](double at) { return -gap_at(beside(at)); }, -kTangent, kTangent, kBits);
+  return -loss < best.gap ? best : SeparatingPlane{beside(tangent), -loss};
 }
 
 }  // namespace
@@ -194,9 +196,11 @@ void ChordTimes::search_empty(const ChordSample& a, const ChordSample& b) {
   if (surely_apart(body_, a.pose, b.pose, slack, ray_)) return;
   const ToolPose middle_pose = motion_.at(0.5 * (a.t + b.t));
   if (!body_.chord(middle_pose, ray_, 0.5 * motion_.travel() * span)) return;
+  if (stays_beyond_end(a, b)) return;
 
   // Each separating plane holds until its gap, a nearly linear function of time, runs out.
   const double holds_after_a = reach_of_plane(a, b, slack);
+  if (holds_after_a == b.t) return;
   const double holds_before_b = reach_of_plane(b, a, slack);
   if (holds_after_a >= holds_before_b) return;
   const ChordSample middle = sample(0.5 * (holds_after_a + holds_before_b));
@@ -206,17 +210,47 @@ void ChordTimes::search_empty(const ChordSample& a, const ChordSample& b) {
   refine_between(middle, b, 0);
 }
 
+// Whether the plane of an end of the body, which goes with it, has all of the ray on its other side
+// that the body could reach. True is a proof.
+bool ChordTimes::stays_beyond_end(const ChordSample& a, const ChordSample& b) const {
+  const double span = b.t - a.t;
+  const double way = motion_.travel() * span;
+  double lo = kInfinity, hi = -kInfinity;
+  for (const ToolPose& pose : {a.pose, b.pose}) {
+    // At no moment is a point of the body farther from where it is at the nearer of both.
+    const auto chord = body_.chord(pose, ray_, 0.5 * way);
+    if (!chord) continue;
+    lo = std::min(lo, chord->lo);
+    hi = std::max(hi, chord->hi);
+  }
+  if (lo > hi) return true;
+  double lowest = kInfinity, highest = -kInfinity;
+  for (const ToolPose& pose : {a.pose, b.pose}) {
+    for (const double s : {lo, hi}) {
+      const double height = (ray_.at(s) - pose.tip).dot(pose.axis);
+      lowest = std::min(lowest, height);
+      highest = std::max(highest, height);
+    }
+  }
+  const double departure = motion_.plane_departure(span, body_.reach() + way, way);
+  return highest + departure <= body_.bottom() + kMissedDepth ||
+         lowest - departure >= body_.height() - kMissedDepth;
+}
+
 // How far from `start` towards `end` the separating plane found at `start` surely separates.
 double ChordTimes::reach_of_plane(const ChordSample& start, const ChordSample& end,
                                   double slack) const {
   const SeparatingPlane plane = separate(body_, start.pose, ray_);
-  if (!(plane.gap > -kMissedDepth)) return start.t;
-  const double gap_at_end = gap_of(plane.normal, body_, end.pose, ray_);
-  const double fall = plane.gap + kMissedDepth - slack;
-  const double loss = plane.gap - gap_at_end;
-  if (fall <= 0.0) return start.t;
-  if (loss <= fall) return end.t;
-  return start.t + (end.t - start.t) * fall / loss;
+  const double at_start = plane.gap + kMissedDepth;
+  if (!(at_start > 0.0)) return start.t;
+  const double at_end = gap_of(plane.normal, body_, end.pose, ray_) + kMissedDepth;
+  // At x of the way the gap is at_start (1 - x) + at_end x or less by 4 x (1 - x) slack: up to the
+  // first root.
+  const double rise = at_end - at_start - 4.0 * slack;
+  const double root2 = rise * rise - 16.0 * slack * at_start;
+  if (rise >= 0.0 || root2 < 0.0) return end.t;
+  const double share = 2.0 * at_start / (std::sqrt(root2) - rise);
+  return share < 1.0 ? start.t + (end.t - start.t) * share : end.t;
 }
 
 }  // namespace frustum::cutter

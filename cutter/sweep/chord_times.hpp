@@ -54,6 +54,7 @@ class ChordTimes {
   [[nodiscard]] double resolution() const;
   [[nodiscard]] ChordSample end_of_run(ChordSample inside, ChordSample outside) const;
   void search_empty(const ChordSample& a, const ChordSample& b);
+  [[nodiscard]] bool stays_beyond_end(const ChordSample& a, const ChordSample& b) const;
   [[nodiscard]] double reach_of_plane(const ChordSample& start, const ChordSample& end,
                                       double slack) const;
 
