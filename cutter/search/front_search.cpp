@@ -46,6 +46,7 @@ class Front {
   [[nodiscard]] bool wants_piece(std::uint32_t group, double lo, double hi) {
     return wants(group, {lo, hi});
   }
+  [[nodiscard]] double begins_by() const { return front_.s + gap_; }
 
   // Whatever a group covers before the front does not matter.
   [[nodiscard]] QuadLimit limit(const GroupQuad& groups, const QuadSpan&) {

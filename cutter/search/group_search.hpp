@@ -65,6 +65,7 @@ struct LeafMotions {
 //   span<const Chord> floors() ends of segments inside these need not be exact
 //   kSolvesWhole              a solution finds all of a segment's ends, whatever is covered: costly
 //   bool wants_piece(group, lo, hi)  could a piece of ray still add anything?
+//   double begins_by()        what begins beyond adds nothing before more is covered
 //   int change()              another number whenever more is covered
 template <class Goal>
 class GroupSearch {
@@ -79,14 +80,12 @@ class GroupSearch {
 
   // What is under one group; the root has number 0.
   void run(std::uint32_t group) {
-    if (quads_.empty()) return;
-    run(std::span(&group, 1));
+    if (!quads_.empty()) run(std::span(&group, 1));
   }
   void run(std::span<const std::uint32_t> groups) {
     run(groups, [](std::size_t) { return false; });
   }
-  // In the order given, but that what promises most comes first. `is_held(i)`: whether group i of
-  // these adds nothing to what is covered now.
+  // As given, but that what promises most comes first. `is_held(i)`: does group i add nothing now?
   template <class IsHeld>
   void run(std::span<const std::uint32_t> groups, const IsHeld& is_held) {
     open(groups, is_held);
@@ -112,11 +111,15 @@ class GroupSearch {
   }
   void finish() {
     run_until([] { return false; });
-    while (!gaps_.empty()) {
-      const Gap gap = gaps_.back();
-      gaps_.pop_back();
-      if (goal_.wants_piece(gap.group, gap.lo.s, gap.hi.s)) walk(gap);
+    std::ranges::reverse(gaps_);
+    // Of what begins too far ahead for now more may count when more is covered.
+    for (int change = goal_.change() - 1; change != goal_.change() && !gaps_.empty();) {
+      change = goal_.change();
+      std::erase_if(gaps_, [&](const Gap& gap) {
+        return !goal_.wants_piece(gap.group, gap.lo.s, gap.hi.s) || !walk(gap);
+      });
     }
+    gaps_.clear();
   }
 
   // What the cutter covers where this segment begins.
@@ -461,8 +464,9 @@ class GroupSearch {
     return {end.s, end.t, end.face};
   }
 
-  void walk(const Gap& gap) {
-    if (room_of(gap.segment) >= 0.0) return;
+  // Whether anything may be left of it.
+  bool walk(const Gap& gap) {
+    if (room_of(gap.segment) >= 0.0) return false;
     const SegmentMotion motion = motion_of(gap.segment);
     const ConcaveSweep concave(*sweep_.body, motion, question_.ray);
     const auto end_at = [&](const SweptEnd& end) -> SweptIntervalEnd {
@@ -472,9 +476,11 @@ class GroupSearch {
       return {end.s, gap.segment, kConcaveSurface, end.t, end.face};
     };
     found_.clear();
+    const double begins_by = goal_.begins_by();
     for_each_unknown(gap.lo.s, gap.hi.s,
-                     [&](double lo, double hi) { concave.walk(lo, hi, found_); });
+                     [&](double lo, double hi) { concave.walk(lo, hi, found_, begins_by); });
     for (const SegmentInterval& f : found_) take_solved({end_at(f.lo), end_at(f.hi)});
+    return gap.hi.s > begins_by;
   }
 
   const RayQuestion& question_;

@@ -53,6 +53,7 @@ class WholeSweptInterval {
   [[nodiscard]] bool wants_piece(std::uint32_t group, double lo, double hi) const {
     return wants(group, {lo, hi});
   }
+  [[nodiscard]] static double begins_by() { return kInfinity; }
 
   [[nodiscard]] QuadLimit limit(const GroupQuad& groups, const QuadSpan&) {
     const Held held = between([&](const SeparatingPlane& end) {

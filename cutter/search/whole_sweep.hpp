@@ -61,6 +61,7 @@ class WholeSweep {
   [[nodiscard]] static RaySpan counted(const GroupReach& reach);
   [[nodiscard]] bool wants(std::uint32_t group, const RaySpan& counted) const;
   [[nodiscard]] bool wants_piece(std::uint32_t group, double lo, double hi) const;
+  [[nodiscard]] static double begins_by() { return kInfinity; }
   [[nodiscard]] QuadLimit limit(const GroupQuad& groups, const QuadSpan& in_box);
   [[nodiscard]] double room(std::uint32_t segment, const ToolPose& from, const ToolPose& to);
   [[nodiscard]] DoubleFour rooms(const LeafMotions& leaf);

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
 #include "core/constants.hpp"
-#include "core/golden_section.hpp"
+#include "core/lowest_place.hpp"
 #include "cutter/sweep/meridian_clearance.hpp"
 
 namespace frustum::cutter {
@@ -279,15 +281,15 @@ ConcaveSweep::Covered ConcaveSweep::covered_along(double s, double t, double hi,
                                                   Following& last) const {
   constexpr double kLess = 0.25, kMore = 2.0, kAsFast = 16.0;
   double& stretch = last.stretch;
-  constexpr double kSameState = 1e-9;  // mm of motion
+  constexpr double kSameState = 1e-9, kSameDepth = 0.0;  // mm of motion; mm
   const Look here = look(s, t);
   const double speed = run_ + motion_.turn() * here.away;
   for (stretch = std::min(stretch, hi - s); stretch > kLeastStep; stretch *= kLess) {
     const double next = s + stretch;
     const double window = (kAsFast / speed + 2.0 * std::abs(last.pace)) * stretch;
-    const GoldenBracket deepest =
-        golden_section([&](double at) { return distance(next, at); }, std::max(0.0, t - window),
-                       std::min(1.0, t + window), kSameState / motion_.travel());
+    const LowestPlace deepest =
+        lowest_place([&](double at) { return distance(next, at); }, std::max(0.0, t - window),
+                     std::min(1.0, t + window), kSameState / motion_.travel(), kSameDepth);
     if (!covers_along(s, t, next, deepest.at)) continue;
     last.pace = (deepest.at - t) / stretch;
     stretch *= kMore;
@@ -314,15 +316,23 @@ ConcaveSweep::Covered ConcaveSweep::covered_from(double s, Nearest& here, double
   return last.is_longer ? along : around;
 }
 
-void ConcaveSweep::walk(double lo, double hi, SegmentIntervals& found) const {
+void ConcaveSweep::walk(double lo, double hi, SegmentIntervals& found, double begins_by) const {
   LeastStep least;
   double s = lo, stretch = hi - lo;
   Following follow{hi - lo};
-  Nearest here = nearest(s, 0.5, Want::side);
+  double likely = 0.5;
+  if (begins_by < hi && is_outside(lo, std::max(lo, begins_by), likely)) return;
+  Nearest here = nearest(s, likely, Want::side);
+  if (!(here.distance < 0.0) && begins_by < hi) {
+    // A piece that begins before that is wanted if it goes on beyond.
+    s = std::max(lo, begins_by);
+    here = nearest(s, here.t, Want::side);
+    if (!(here.distance < 0.0)) return;
+  }
   bool is_known = true;  // how far it is there
   std::optional<SweptEnd> begin;
   if (here.distance < 0.0) begin = SweptEnd{s, here.t};
-  while (s < hi) {
+  while (s < hi && (begin || s <= begins_by)) {
     if (begin) {
       const Covered covered = covered_from(s, here, hi, follow);
       if (covered.until > s + kLeastStep) {
@@ -434,26 +444,25 @@ ConcaveSweep::Nearest ConcaveSweep::nearest(double s, double likely, Want want) 
 // Bottoms may be as sharp as the rims that make them.
 ConcaveSweep::Nearest ConcaveSweep::lowest(double s, double lo, double hi) const {
   constexpr double kSameState = 1e-13;  // mm of motion
-  const GoldenBracket bottom = golden_section([&](double t) { return distance(s, t); }, lo, hi,
-                                              kSameState / motion_.travel());
+  constexpr double kSameDepth = 1e-14;  // mm
+  const LowestPlace bottom = lowest_place([&](double t) { return distance(s, t); }, lo, hi,
+                                          kSameState / motion_.travel(), kSameDepth);
   return {bottom.value, bottom.at};
 }
 
 SweptEnd ConcaveSweep::close_in(double a, Nearest at_a, double b, Nearest at_b) const {
-  for (int i = 0; i < 100 && b - a > kEndTolerance; ++i) {
-    double x = a + (b - a) * at_a.distance / (at_a.distance - at_b.distance);
-    if (i % 3 == 2 || !(x > a && x < b)) x = 0.5 * (a + b);
-    const Nearest at_x = nearest(x, at_a.distance < 0.0 ? at_a.t : at_b.t, Want::least);
-    if (at_x.distance == 0.0) return {x, at_x.t};
-    if ((at_x.distance < 0.0) == (at_a.distance < 0.0)) {
-      a = x;
-      at_a = at_x;
-    } else {
-      b = x;
-      at_b = at_x;
-    }
-  }
-  return at_a.distance < 0.0 ? SweptEnd{a, at_a.t} : SweptEnd{b, at_b.t};
+  std::uintmax_t looks = 100;
+  const bool from_inside = at_a.distance < 0.0;
+  SweptEnd inside = from_inside ? SweptEnd{a, at_a.t} : SweptEnd{b, at_b.t};
+  const auto distance_at = [&](double x) {
+    const Nearest at_x = nearest(x, inside.t, Want::least);
+    if (at_x.distance <= 0.0 && (from_inside ? x > inside.s : x < inside.s)) inside = {x, at_x.t};
+    return at_x.distance;
+  };
+  static_cast<void>(boost::math::tools::toms748_solve(
+      distance_at, a, b, at_a.distance, at_b.distance,
+      [](double lo, double hi) { return hi - lo <= kEndTolerance; }, looks));
+  return inside;
 }
 
 }  // namespace frustum::cutter

@@ -23,6 +23,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/constants.hpp"
 #include "cutter/body/body.hpp"
 #include "cutter/sweep/segment_motion.hpp"
 #include "cutter/sweep/segment_sweep.hpp"
@@ -47,8 +48,8 @@ class ConcaveSweep {
   // Whether a ray slides along the end of a body that turns: sweeps of hulls take long then, and to
   // walk does not.
   [[nodiscard]] bool slides() const;
-  // Appends what is covered between lo and hi.
-  void walk(double lo, double hi, SegmentIntervals& found) const;
+  // Appends what is covered between lo and hi and begins no farther than `begins_by`.
+  void walk(double lo, double hi, SegmentIntervals& found, double begins_by = kInfinity) const;
   // When the body's surface, or its inside, is nearest to the ray's point at s.
   [[nodiscard]] double nearest_state(double s) const { return nearest(s, 0.5, Want::least).t; }
   // How often it has asked how far a point is from the body.
