@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/constants.hpp"
+
 namespace frustum::stock {
 namespace {
 
@@ -162,6 +164,26 @@ Answer solve(SolidView solid, std::span<HermiteSample> samples, const BoundingBo
   return answer;
 }
 
+// Of a piece whose planes do not meet on the surface: from the mean of its samples the nearest that
+// a probe along one of their normals meets, else the mean.
+PlacedVertex beside_mean(SolidView solid, Samples samples, const BoundingBox& allowed, double pitch,
+                         cutter::SweptNear* near) {
+  const Vec3 mean = mean_point(samples);
+  PlacedVertex placed{mean, mean_normal(samples), VertexKind::averaged};
+  if (placed.normal.isZero()) placed.normal = samples.front().normal;
+  double nearest = kInfinity;
+  for (const HermiteSample& sample : samples) {
+    const auto found =
+        nearest_surface(solid, mean, sample.normal, 2.0 * kReach * pitch, {{&sample.tag, 1}, near});
+    if (!found || !contains(allowed, found->point)) continue;
+    const double distance = (found->point - mean).norm();
+    if (distance >= nearest) continue;
+    nearest = distance;
+    placed = {found->point, found->normal, VertexKind::surface};
+  }
+  return placed;
+}
+
 }  // namespace
 
 std::optional<HermiteSample> nearest_surface(SolidView solid, const Vec3& point, const Vec3& normal,
@@ -210,7 +232,8 @@ PlacedVertex place_vertex(SolidView solid, std::span<const HermiteSample> sample
     if (!answer.found) break;
     known[count++] = *answer.found;
   }
-  return *first;
+  if (first->kind != VertexKind::averaged) return *first;
+  return beside_mean(solid, samples, allowed, pitch, near);
 }
 
 }  // namespace frustum::stock

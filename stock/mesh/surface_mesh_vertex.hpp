@@ -7,11 +7,13 @@
 //            corner: the planes are taken again where the surface is nearer to the solution, and so
 //            on, so that curved faces meet where they really do. A curved smooth piece reveals
 //            itself then: its normals come to agree. A face that crosses no edge of the cell is
-//            noticed because the others then do not meet on the surface, and joins them.
+//            noticed because the others then do not meet on the surface, and joins them. Where
+//            nothing of that ends on the surface, the vertex is the point of it nearest to the mean
+//            along one of the samples' normals.
 // Units    : mm
 // Shape    : 1 to 12 samples of one piece, all on the edges of `cell`; the vertex stays within the
 //            cell grown by `leave` times its size
-// Errors   : none; what cannot be found is VertexKind::averaged
+// Errors   : none; where no surface is found, the mean, as VertexKind::averaged
 // Accuracy : see surface_mesh.hpp
 #pragma once
 

@@ -13,7 +13,9 @@
 
 #include "core/random.hpp"
 #include "cutter/search/swept_cutter.hpp"
+#include "stock/mesh/surface_mesh_vertex.hpp"
 #include "stock/solid/workpiece.hpp"
+#include "tests/stock/milling.hpp"
 #include "tests/stock/surface_mesh_solids.hpp"
 
 namespace frustum::stock {
@@ -277,6 +279,23 @@ TEST(SurfaceMesh, OfASlotCutByAnEndMillHasTheVolumeOfTheClosedForm) {
   }
   EXPECT_LT(errors[2], 1e-4 * exact);
   EXPECT_NEAR(std::log2(errors[0] / errors[2]) / 2.0, 2.0, 0.3);
+}
+
+// Thin walls and ridges that the pitch does not resolve: their planes meet far from the surface.
+TEST(SurfaceMesh, OfRandomCutsHasEveryVertexOnTheSurface) {
+  for (const std::uint32_t seed : {7U, 8U, 11U}) {
+    SCOPED_TRACE(seed);
+    const Workpiece workpiece = testing::cut(testing::random_path(seed, 12));
+    const auto mesh = extract_surface(workpiece, workpiece.blank().bounds(), Mm{2.5});
+    ASSERT_TRUE(mesh);
+    for (std::size_t v = 0; v < mesh->vertices.size(); ++v) {
+      ASSERT_NE(mesh->kinds[v], VertexKind::averaged);
+      if (mesh->kinds[v] == VertexKind::feature) continue;
+      const auto found = nearest_surface(workpiece, mesh->vertices[v], mesh->normals[v], 0.1);
+      ASSERT_TRUE(found);
+      ASSERT_LT((found->point - mesh->vertices[v]).norm(), 1e-6);
+    }
+  }
 }
 
 TEST(MeshMeasure, SeesAHoleADoubledFaceAndTwoPieces) {
