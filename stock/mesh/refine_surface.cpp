@@ -35,6 +35,8 @@ constexpr double kMaybeSharp = 0.5;
 // No surface leaves an edge shorter than this many tolerances by more than the tolerance, unless
 // the edge is not on it.
 constexpr double kShortest = 2.0;
+// How far the middle of an edge may be moved along it, of its length.
+constexpr double kMostSlide = 0.4;
 // Each round halves what is too long: 2^40 is from a metre to a picometre.
 constexpr int kMostRounds = 40;
 
@@ -131,6 +133,10 @@ class Round {
     return std::any_of(corners.begin(), corners.end(),
                        [&](std::uint32_t v) { return v >= first_fresh_; });
   }
+  [[nodiscard]] bool ends_on_surface(const Edge& edge) const {
+    return mesh_.kinds[edge.from] != VertexKind::averaged &&
+           mesh_.kinds[edge.to] != VertexKind::averaged;
+  }
   [[nodiscard]] Vec3 outward_of(const Edge& edge) const;
   [[nodiscard]] Middle middle_of(const Edge& edge) const;
   [[nodiscard]] std::optional<std::array<HermiteSample, 2>> both_faces(const Edge& edge,
@@ -208,7 +214,7 @@ std::optional<Middle> Round::sharp_middle(const Edge& edge, const Vec3& middle,
     at = placed->point;
   }
   // Along the edge it may slide, but not to its ends.
-  if ((at - middle).norm() > 0.45 * length) return std::nullopt;
+  if ((at - middle).norm() > kMostSlide * length) return std::nullopt;
   const Vec3 along = (vertex(edge.to) - vertex(edge.from)) / length;
   return Middle{at, placed->normal, placed->kind, (at - middle).cross(along).norm()};
 }
@@ -235,14 +241,23 @@ Middle Round::middle_of(const Edge& edge) const {
   if (both_feature || between_faces) {
     if (const auto sharp = sharp_middle(edge, at, length)) return *sharp;
   }
-  const Vec3 outward = outward_of(edge);
-  Middle middle{at, outward.normalized(), VertexKind::averaged, 0.0};
-  if (!(outward.norm() > 0.0)) return middle;
-  const auto found = nearest_surface(solid_, at, middle.normal, kEdgeReach * length + chord_);
-  if (!found || found->normal.dot(middle.normal) < 0.5) return middle;
-  const double along = (found->point - at).norm();
-  return {found->point, found->normal, VertexKind::surface,
-          along * found->normal.dot(middle.normal)};
+  const Vec3 along = (vertex(edge.to) - vertex(edge.from)) / length;
+  const double reach = kEdgeReach * length + chord_;
+  // Along the mean of its ends' normals; where nothing is found, along one of both.
+  const std::array<Vec3, 3> ways{outward_of(edge), mesh_.normals[edge.from],
+                                 mesh_.normals[edge.to]};
+  for (const Vec3& towards : ways) {
+    if (!(towards.norm() > 0.0)) continue;
+    const Vec3 normal = towards.normalized();
+    const auto found = nearest_surface(solid_, at, normal, reach);
+    if (!found || found->normal.dot(normal) < 0.5) continue;
+    const Vec3 way = found->point - at;
+    // At an end of the edge it would make the same edge again.
+    if (std::abs(way.dot(along)) > kMostSlide * length) continue;
+    return {found->point, found->normal, VertexKind::surface,
+            way.norm() * found->normal.dot(normal)};
+  }
+  return {at, ways[1], VertexKind::averaged, 0.0};
 }
 
 double Round::centre_chord(std::uint32_t t) const {
@@ -283,7 +298,8 @@ bool Round::mark() {
     middles_[e] = middle_of(edge);
     asked_[e] = 1;
     const bool is_long = squared_length(e) > kShortest * kShortest * chord_ * chord_;
-    split_[e] = is_long && middles_[e].chord > kEdgeShare * chord_ ? 1 : 0;
+    // Of what ends off the surface one part would be no nearer to it than the whole.
+    split_[e] = ends_on_surface(edge) && is_long && middles_[e].chord > kEdgeShare * chord_ ? 1 : 0;
   });
   const auto triangle_count = static_cast<std::uint32_t>(mesh_.triangles.size());
   std::vector<double> centres(triangle_count, 0.0);
@@ -304,7 +320,8 @@ bool Round::mark() {
   for (std::uint32_t e = 0; e < edge_count; ++e) {
     if (asked_[e] == 0 || split_[e] != 0) continue;
     worst_kept_ = std::max(worst_kept_, middles_[e].chord);
-    if (middles_[e].kind == VertexKind::averaged) ++unresolved_;
+    const bool is_on = ends_on_surface(edges_.all[e]);
+    if (!is_on || middles_[e].kind == VertexKind::averaged) ++unresolved_;
   }
   spread_to_longest();
   return std::find(split_.begin(), split_.end(), 1) != split_.end();

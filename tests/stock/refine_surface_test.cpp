@@ -14,6 +14,7 @@
 #include "stock/mesh/decimate_surface.hpp"
 #include "stock/solid/facet_solid.hpp"
 #include "stock/solid/workpiece.hpp"
+#include "tests/stock/milling.hpp"
 #include "tests/stock/surface_mesh_solids.hpp"
 
 namespace frustum::stock {
@@ -302,6 +303,19 @@ TEST(DecimateSurface, TurnsNoTriangleOver) {
     }
     EXPECT_EQ(against, 0U);
   }
+}
+
+// Edges that the coarse grid did not see cross triangles: they are not divided again and again.
+TEST(RefineSurface, EndsWhereFacesMeetWithinTheGrid) {
+  const Workpiece workpiece = testing::cut(testing::random_path(3, 6));
+  SurfaceMesh coarse = extract_surface(workpiece, workpiece.blank().bounds(), Mm{4.0}).value();
+  const auto refined = refine_surface(workpiece, std::move(coarse), {.chord = Mm{0.1}});
+  ASSERT_TRUE(refined.has_value());
+  EXPECT_LT(refined->mesh.triangles.size(), 20'000U);
+  EXPECT_GT(refined->unresolved_edges, 0U);
+  const MeshMeasure measured = measure(refined->mesh);
+  EXPECT_TRUE(measured.is_closed);
+  EXPECT_TRUE(measured.is_manifold);
 }
 
 TEST(DecimateSurface, RefusesTwoSolidsThatShareAnEdge) {
