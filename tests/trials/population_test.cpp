@@ -174,6 +174,17 @@ TEST(Population, SweepingNearByAsksHardlyAPointOfTheWholeProgram) {
   EXPECT_LT(static_cast<double>(local), 0.1 * points);
 }
 
+// Other passes come as near as they may, but not those of one machine.
+TEST(Population, ErrorsTenTimesLargerAskHardlyAPointOfTheWholeProgram) {
+  const auto cone = ConePopulation::of(120, false, {}, 1e-4);
+  const Population population = cone.population();
+  const auto draws = cone.draws(8, 10.0);
+  const double points = static_cast<double>(draws.size() * population.point_count());
+  const auto whole = static_cast<double>(points_asked_whole(population, draws));
+  testing::Test::RecordProperty("whole_percent", std::to_string(100.0 * whole / points));
+  EXPECT_LT(whole, 0.01 * points);
+}
+
 TEST(Population, HasTheSameBitsForAnyThreadsAndNeighbours) {
   const auto cone = ConePopulation::of(6, false);
   const Population population = cone.population();

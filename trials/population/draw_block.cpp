@@ -225,11 +225,17 @@ void DrawBlock::probe_point(std::size_t feature, std::size_t index, std::size_t 
                             const LaneContact* contact) {
   Lane& lane = lanes_[lane_index];
   double& travel = lane.travels[feature][index];
-  if (contact != nullptr && contact->doubt[lane_index] == 0) {
+  const FollowedPoint& point = common_.plan.points[common_.plan.first_point[feature] + index];
+  std::uint32_t doubt = contact != nullptr ? contact->doubt[lane_index] : 0;
+  constexpr auto kOthers = static_cast<std::uint32_t>(Doubt::others);
+  if ((doubt & kOthers) != 0 && others_keep_away(point, lane_index, contact->drift.of[lane_index],
+                                                 contact->moved.of[lane_index])) {
+    doubt &= ~kOthers;
+  }
+  if (contact != nullptr && doubt == 0) {
     travel = contact->travel.of[lane_index];
     return;
   }
-  const FollowedPoint& point = common_.plan.points[common_.plan.first_point[feature] + index];
   const BallApproach approach = approach_of(lane, feature, index);
   if (point.room_on_blank) {
     if (const auto on_blank = travel_on_blank(point, lane.scale, approach)) {
@@ -237,8 +243,7 @@ void DrawBlock::probe_point(std::size_t feature, std::size_t index, std::size_t 
       return;
     }
   }
-  if (contact != nullptr &&
-      contact->doubt[lane_index] == static_cast<std::uint32_t>(Doubt::edges)) {
+  if (contact != nullptr && doubt == static_cast<std::uint32_t>(Doubt::edges)) {
     if (const auto on_edge = travel_on_edge(point, lane_index, approach)) {
       travel = *on_edge;
       return;
@@ -270,6 +275,18 @@ void DrawBlock::probe_point(std::size_t feature, std::size_t index, std::size_t 
   } else {
     whole_trial(lane_index);  // says why
   }
+}
+
+bool DrawBlock::others_keep_away(const FollowedPoint& point, std::size_t lane_index, double drift,
+                                 double moved) {
+  Lane& lane = lanes_[lane_index];
+  if (keeps_away(point.others, lane.scale, drift, moved)) return true;
+  if (!lane.nearness) {
+    std::vector<double> off = draws_[lane_index];
+    for (std::size_t j = 0; j < off.size(); ++j) off[j] -= common_.middle_weights[j];
+    lane.nearness.emplace(common_.plan.near_places, std::move(off));
+  }
+  return lane.nearness->keep_away(point.near, point.origin.touched, lane.scale, drift, moved);
 }
 
 void DrawBlock::find_poses_of(const FollowedPoint& point) {
@@ -331,8 +348,9 @@ std::optional<double> DrawBlock::local_travel(const FollowedPoint& point, std::s
       pieces.push_back(poses_of(common_.plan.motion.pieces[k].node, lane));
     }
   }
-  const LocalSurroundings near{pieces,       lengths,      poses_of(point.origin.node, lane),
-                               point.origin, point.others, lanes_[lane].scale};
+  const LocalSurroundings near{
+      pieces, lengths, poses_of(point.origin.node, lane), point.origin,
+      [&](double drift, double moved) { return others_keep_away(point, lane, drift, moved); }};
   const auto met =
       local_contact(near, point.tool, common_.middle.workpiece->removed().tool(point.tool),
                     approach, common_.options.path_bound);

@@ -58,12 +58,16 @@ class DrawBlock {
     std::vector<Pose> probed_in{};               // by feature: the frame in which it was approached
     std::vector<std::optional<metrology::FittedFeature>> features{};  // by feature
     std::vector<bool> has_surroundings{};                             // by node: poses are known
+    std::optional<MachineNearness> nearness{};                        // when first asked for
     std::shared_ptr<const stock::Workpiece> whole{};                  // if it had to be cut
     PopulationMember* member = nullptr;
   };
   void probe(std::size_t feature);
   void probe_point(std::size_t feature, std::size_t index, std::size_t lane,
                    const LaneContact* contact);
+  // Whether what is beside the point's surroundings keeps out of the way of its contact.
+  [[nodiscard]] bool others_keep_away(const FollowedPoint& point, std::size_t lane, double drift,
+                                      double moved);
   [[nodiscard]] std::optional<double> travel_on_edge(const FollowedPoint& point, std::size_t lane,
                                                      const metrology::BallApproach& approach) const;
   [[nodiscard]] std::optional<double> travel_on_blank(

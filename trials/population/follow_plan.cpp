@@ -80,6 +80,7 @@ class Planner {
     std::set<std::uint32_t> nodes;
     for (const LanePiece& one : plan_.tables.pieces) nodes.insert(one.node.begin(), one.node.end());
     plan_.window_nodes.assign(nodes.begin(), nodes.end());
+    plan_.near_places = bounds_.take_places();
     return std::move(plan_);
   }
 
@@ -289,25 +290,18 @@ class Planner {
     return best;
   }
 
+  static void refuse(FollowedPoint& point, const char* why) { point.why_not = why; }
+
   void follow(FollowedPoint& point, const Found& contact, std::size_t index) {
-    if (!body(contact.tool).is_convex()) {
-      point.why_not = "the cutter is not convex";
-      return;
-    }
+    if (!body(contact.tool).is_convex()) return refuse(point, "the cutter is not convex");
     const std::vector<PieceRange> surroundings = pieces_of(ranges_[index]);
-    if (surroundings.empty()) {
-      point.why_not = "an error bends sharply within a block";
-      return;
-    }
+    if (surroundings.empty()) return refuse(point, "an error bends sharply within a block");
     const std::span<const MotionPiece> pieces = of(surroundings.front());
     const CentreLine line{contact.point + contact.ball * contact.normal, contact.normal,
                           contact.ball};
     const double from = (contact.touched - contact.point).dot(contact.normal);
     const auto own = own_contact(pieces, contact, line, from);
-    if (!own) {
-      point.why_not = "an end face or an edge of the cutter made the surface";
-      return;
-    }
+    if (!own) return refuse(point, "an end face or an edge of the cutter made the surface");
     const MotionPiece& own_piece = pieces[own->piece];
     const double travel = own->solution.travel;
     const ToolPose pose = parabola(own_piece).at(own->solution.tau);
@@ -316,13 +310,15 @@ class Planner {
     const ContactPlace at{
         touched, own->solution.centre.out, pose,
         bounds_.motions(state_on(own_piece, own->solution.tau), contact.tool, pose, touched)};
-    point.others = bounds_.others(
+    auto [others, near] = bounds_.others(
         at, ranges_[index], contact.tool,
         {line.touching, line.normal, contact.ball, travel, piece_.plan.probe.clearance});
-    if (!(point.others.per_scale < 1.0)) {
-      point.why_not = "other cuts or the blank's surface are too near";
-      return;
-    }
+    // Hardly a machine has more than a fifth of what all columns at their limits make.
+    constexpr double kHopeless = 5.0;
+    if (!(others.per_scale < (near.is_known ? kHopeless : 1.0)))
+      return refuse(point, "other cuts or the blank's surface are too near");
+    point.others = others;
+    point.near = std::move(near);
     point.surroundings = surroundings;
     point.tool = contact.tool;
     point.origin = {own_piece.node, own->solution.tau, pose, touched};
@@ -336,10 +332,7 @@ class Planner {
       const std::size_t deepest =
           is_own ? own->piece : deepest_of(of(range), own->face, line, travel, touched);
       auto stretch = widened(of(range), deepest, at, own->face, contact.tool);
-      if (!stretch) {
-        point.why_not = "the cutter hardly leaves the surface again";
-        return;
-      }
+      if (!stretch) return refuse(point, "the cutter hardly leaves the surface again");
       if (is_own) {
         window.own_piece = static_cast<std::uint32_t>(deepest) - stretch->first_piece;
       }
@@ -347,10 +340,7 @@ class Planner {
       window.pieces += stretch->pieces;
       stretches.push_back(*stretch);
     }
-    if (window.pieces > kMostWindowPieces) {
-      point.why_not = "the path comes by too often";
-      return;
-    }
+    if (window.pieces > kMostWindowPieces) return refuse(point, "the path comes by too often");
     window.stretches = static_cast<std::uint32_t>(stretches.size());
     for (WindowStretch& stretch : stretches) {
       const std::span<const MotionPiece> all(plan_.motion.pieces);

@@ -6,7 +6,8 @@
 //            off, are its surroundings. How much other parts of the path can come nearer to a
 //            contact is summed over all columns at their limits: of pieces in the surroundings what
 //            the ends of the window do not tell (the second differences along the path), of other
-//            passes all of it, of what is farther off twice the largest motion of any point
+//            passes all of it, of what is farther off twice the largest motion of any point.
+//            Of one machine the same is told from its own weights (near_parts.hpp)
 // Units    : mm, rad; frame: workpiece
 //            The blank's own surface stays where it is: a contact on it needs no window
 // Errors   : points that cannot be followed say why
@@ -25,6 +26,7 @@
 #include "trials/population/lane_contact.hpp"
 #include "trials/population/local_contact.hpp"
 #include "trials/population/motion_pieces.hpp"
+#include "trials/population/near_parts.hpp"
 #include "trials/population/population_laws.hpp"
 #include "trials/trial.hpp"
 
@@ -44,6 +46,7 @@ struct FollowedPoint {
   // once more; none where other parts of the path cannot be excluded.
   std::vector<PieceRange> surroundings{};
   Closeness others{};  // of what is not in them
+  NearParts near{};    // the same, for one machine
   int tool = 0;
   ContactOrigin origin{};
   // mm: of a contact on the blank's own surface, how far cutters keep from it. It is met there as
@@ -59,6 +62,7 @@ struct FollowPlan {
   std::vector<FollowedPoint> points{};        // features and points in the order of the plan
   std::vector<std::uint32_t> first_point{};   // of each feature, and the end
   std::vector<std::uint32_t> window_nodes{};  // that any window needs
+  NearPlaces near_places{};
   double largest_motion = 0.0;  // mm, of any point of the cutters for errors within their laws
 };
 

@@ -92,6 +92,8 @@ enum class Doubt : std::uint32_t {
 
 struct LaneContact {
   Lanes travel{};
+  // Of the contact from where the middle machine's was carried by its cutter, and from there (mm).
+  Lanes drift{}, moved{};
   std::array<std::uint32_t, kLanes> doubt{};  // sums of Doubt
 };
 

@@ -105,7 +105,7 @@ std::optional<metrology::BallContact> local_contact(const LocalSurroundings& nea
   }
   const double drift = (contact.touch.point - carried(near.origin, near.own)).norm();
   const double moved = (contact.touch.point - near.origin.touched).norm();
-  return keeps_away(near.others, near.scale, drift, moved) ? std::optional(contact) : std::nullopt;
+  return near.others_keep_away(drift, moved) ? std::optional(contact) : std::nullopt;
 }
 
 }  // namespace frustum::trials

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -25,8 +26,8 @@ struct LocalSurroundings {
   std::span<const std::uint32_t> lengths{};  // of the ranges
   PosesOfPiece own{};                        // of the origin's piece
   const ContactOrigin& origin;
-  const Closeness& others;
-  double scale = 1.0;
+  // Whether other parts of the path keep out of the way of a contact (middle_contact.hpp).
+  std::function<bool(double drift, double moved)> others_keep_away{};
 };
 
 [[nodiscard]] std::optional<metrology::BallContact> local_contact(

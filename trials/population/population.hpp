@@ -6,10 +6,11 @@
 //            anew: the ball's centre on its line of approach and the time on the piece, where the
 //            distance from the cutter and its change with time vanish; between two pieces also the
 //            edge that both leave. That nothing else reaches the contact is shown by the distances
-//            of the middle machine less how much other parts of the path may move relatively.
-//            Where it is not shown the draw's cutter is swept near by ("local"), or the whole
-//            program is ("whole"). Then the plan is evaluated as the CMM does: datum features
-//            first, and the others where the datum system of the draw has them
+//            of the middle machine less how much other parts of the path may move relatively, on
+//            any machine within its laws or else on this one. Where it is not shown the draw's
+//            cutter is swept near by ("local"), or the whole program is ("whole"). Then the plan is
+//            evaluated as the CMM does: datum features first, and the others where the datum system
+//            of the draw has them
 // Units    : mm, rad
 // Shape    : one call for any number of draws; parallel over blocks of draws (oneTBB's arena of the
 //            caller), the same bits for any number of threads, blocks or neighbours in a block

@@ -17,9 +17,11 @@ using kinematics::ToolPose;
 // For what is of second order in the errors.
 constexpr double kSecondOrder = 1.02;
 // Machines are followed up to this many times the limits of their laws, by distances at least.
-constexpr double kMostScale = 2.0;
+constexpr double kMostScale = 4.0;
 // Twice, for both move; beyond so many of the largest motions nothing matters.
 constexpr double kFarOff = 2.0 * kMostScale * 2.0;
+// Motions of one place are some 4 kB.
+constexpr std::uint32_t kMostPlaces = 20'000;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 // Of the body at a pose from the point, and the way out of the body there.
@@ -87,6 +89,18 @@ void take(Closeness& worst, const Closeness& one) {
 
 Vec3 across(const Vec3& v, const Vec3& normal) { return v - v.dot(normal) * normal; }
 
+ColumnMotions numbers_of(std::span<const PoseDisplacement> motions) {
+  ColumnMotions numbers(motions.size());
+  for (std::size_t j = 0; j < motions.size(); ++j) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      numbers[j][k] = static_cast<float>(motions[j].tip[i]);
+      numbers[j][k + 3] = static_cast<float>(motions[j].turn[i]);
+    }
+  }
+  return numbers;
+}
+
 }  // namespace
 
 WindowBounds::WindowBounds(const kinematics::Machine& /*machine*/, const kinematics::Setup& setup,
@@ -105,21 +119,34 @@ double WindowBounds::tool_length(int tool) const {
 
 // At the ends of all blocks; errors that have waves within a block are of no use to anybody.
 void WindowBounds::measure_largest() {
+  constexpr std::size_t kSamples = 512;
   const ToolPath& path = workpiece_.removed().path();
   const auto limits = columns_.limits();
-  const auto look = [&](std::uint32_t pose, int tool) {
+  PathMotions& kept = near_.path;
+  kept.spread.assign(limits.size(), 0.0);
+  const std::size_t stride = path.blocks.size() / kSamples + 1;
+  std::vector<PoseDisplacement> last;
+  std::size_t looked = 0;
+  for (std::size_t s = 0; s < path.segments.size(); ++s) {
+    const kinematics::PathSegment& segment = path.segments[s];
+    if (s + 1 < path.segments.size() && path.segments[s + 1].block == segment.block) continue;
+    const int tool = path.blocks[segment.block].tool;
     const double reach = workpiece_.removed().tool(tool).body().reach();
-    const auto motions = columns_.at(path.axes[pose], tool_length(tool));
+    const auto motions = columns_.at(path.axes[segment.first_pose + 1], tool_length(tool));
+    const bool is_kept = looked++ % stride == 0;
+    if (is_kept) {
+      last = motions;
+      kept.places.push_back(numbers_of(motions));
+    }
+    kept.reach = std::max(kept.reach, reach);
     double sum = 0.0;
     for (std::size_t j = 0; j < motions.size(); ++j) {
       sum += limits[j] * (motions[j].tip.norm() + reach * motions[j].turn.norm());
+      kept.spread[j] =
+          std::max(kept.spread[j], (motions[j].tip - last[j].tip).norm() +
+                                       reach * (motions[j].turn - last[j].turn).norm());
     }
     largest_ = std::max(largest_, sum);
-  };
-  for (std::size_t s = 0; s < path.segments.size(); ++s) {
-    const bool is_last =
-        s + 1 == path.segments.size() || path.segments[s + 1].block != path.segments[s].block;
-    if (is_last) look(path.segments[s].first_pose + 1, path.blocks[path.segments[s].block].tool);
   }
   largest_ *= kSecondOrder;
 }
@@ -153,16 +180,7 @@ const WindowBounds::Motions& WindowBounds::motions_at(Known& known, std::uint32_
                                                       int tool) const {
   const auto found = known.find(id);
   if (found != known.end()) return found->second;
-  Motions motions;
-  for (const PoseDisplacement& d : columns_.at(state, tool_length(tool))) {
-    std::array<float, 6> numbers{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      numbers[k] = static_cast<float>(d.tip[static_cast<Eigen::Index>(k)]);
-      numbers[k + 3] = static_cast<float>(d.turn[static_cast<Eigen::Index>(k)]);
-    }
-    motions.push_back(numbers);
-  }
-  return known.emplace(id, std::move(motions)).first->second;
+  return known.emplace(id, numbers_of(columns_.at(state, tool_length(tool)))).first->second;
 }
 
 std::vector<double> WindowBounds::nearer(const ContactPlace& at, const Vec3& normal,
@@ -219,9 +237,46 @@ SideBound WindowBounds::side(const ContactPlace& at, const LaneFace& face, int t
   return side;
 }
 
-void WindowBounds::take_segment(Closeness& closeness, const ContactPlace& at,
-                                const kinematics::PathSegment& segment, int tool) {
+kinematics::AxisState WindowBounds::state_at(const kinematics::PathSegment& segment,
+                                             double t) const {
   const ToolPath& path = workpiece_.removed().path();
+  kinematics::AxisState state = path.axes[segment.first_pose];
+  const kinematics::AxisState& next = path.axes[segment.first_pose + 1];
+  if (t == 1.0) return next;
+  for (const auto letter : kinematics::kAxisLetters) {
+    state.q[letter] += t * (next.q[letter] - state.q[letter]);
+    state.heading[letter] += t * (next.heading[letter] - state.heading[letter]);
+  }
+  return state;
+}
+
+NearPart::End WindowBounds::near_end(std::uint32_t index, double t, const Vec3& normal) {
+  const ToolPath& path = workpiece_.removed().path();
+  const kinematics::PathSegment& segment = path.segments[index];
+  // The end of one segment is mostly the beginning of the next: both go by the pose.
+  constexpr double kPose = -1.0;
+  const bool is_pose = t == 0.0 || t == 1.0;
+  const auto key =
+      is_pose ? std::pair{segment.first_pose + (t == 0.0 ? 0U : 1U), kPose} : std::pair{index, t};
+  const auto next = static_cast<std::uint32_t>(near_.places.size());
+  if (next == kMostPlaces) return {};  // and then the point's are not known
+  const auto [known, is_new] = near_known_.try_emplace(key, next);
+  if (is_new) {
+    const int tool = path.blocks[segment.block].tool;
+    const cutter::SegmentMotion motion(path, segment,
+                                       workpiece_.removed().tool(tool).body().reach());
+    Known fresh;
+    near_.places.push_back({motion.at(t).tip, motions_at(fresh, 0, state_at(segment, t), tool)});
+  }
+  return {known->second, normal.cast<float>()};
+}
+
+void WindowBounds::take_segment(Others& others, const ContactPlace& at, std::uint32_t index) {
+  // What a machine that far outside of its laws may meet is looked at by itself.
+  constexpr double kWithin = 1.0 / 50.0;
+  const ToolPath& path = workpiece_.removed().path();
+  const kinematics::PathSegment& segment = path.segments[index];
+  const int tool = path.blocks[segment.block].tool;
   const cutter::Body& body = workpiece_.removed().tool(tool).body();
   const cutter::SegmentMotion motion(path, segment, body.reach());
   const double enough = kFarOff * largest_;
@@ -235,24 +290,34 @@ void WindowBounds::take_segment(Closeness& closeness, const ContactPlace& at,
     const ToolPose pose = motion.at(t);
     Moment m{t, from_body(body, pose, at.point)};
     m.lean = across(m.off.out, at.normal).norm();
-    if (m.off.value > enough) {
-      m.nearer = 2.0 * largest_;
-    } else if (t == 0.0 || t == 1.0) {
-      const std::uint32_t end = segment.first_pose + (t == 0.0 ? 0 : 1);
-      m.nearer = sum_at_limits(
-          nearer(at, m.off.out, pose, motions_at(of_poses_, end, path.axes[end], tool)));
-    } else {
-      kinematics::AxisState state = path.axes[segment.first_pose];
-      const kinematics::AxisState& next = path.axes[segment.first_pose + 1];
-      for (const auto letter : kinematics::kAxisLetters) {
-        state.q[letter] += t * (next.q[letter] - state.q[letter]);
-        state.heading[letter] += t * (next.heading[letter] - state.heading[letter]);
-      }
-      Known fresh;
-      m.nearer = sum_at_limits(nearer(at, m.off.out, pose, motions_at(fresh, 0, state, tool)));
-    }
-    m.nearer = std::min(m.nearer, 2.0 * largest_);
+    m.nearer = 2.0 * largest_;
+    if (m.off.value > enough) return m;
+    const auto by = [&](const Motions& motions) {
+      return sum_at_limits(nearer(at, m.off.out, pose, motions));
+    };
+    Known fresh;
+    const bool is_pose = t == 0.0 || t == 1.0;
+    const std::uint32_t id = is_pose ? segment.first_pose + (t == 0.0 ? 0U : 1U) : 0U;
+    m.nearer = std::min(
+        m.nearer, by(motions_at(is_pose ? of_poses_ : fresh, id, state_at(segment, t), tool)));
     return m;
+  };
+  const auto take_near = [&](const Moment& a, const Moment& b, double least) {
+    const Closeness one{std::max(a.nearer, b.nearer) / least, std::max(a.lean, b.lean) / least,
+                        0.0};
+    take(others.closeness, one);
+    if (one.per_scale <= kWithin) {
+      take(others.near.rest, one);
+      return;
+    }
+    constexpr double kRounding = 1e-6;
+    NearPart part{static_cast<float>(least * (1.0 - kRounding)),
+                  static_cast<float>(std::max(a.lean, b.lean) * (1.0 + kRounding))};
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Moment& m = k == 0 ? a : b;
+      if (!(m.off.value > enough)) part.ends[k] = near_end(index, m.t, m.off.out);
+    }
+    others.near.parts.push_back(part);
   };
   // A long segment comes nearer at one end than at the other: its parts count for themselves.
   const auto take_part = [&](const auto& self, const Moment& a, const Moment& b,
@@ -267,17 +332,17 @@ void WindowBounds::take_segment(Closeness& closeness, const ContactPlace& at,
       self(self, a, middle, depth + 1);
       self(self, middle, b, depth + 1);
     } else if (least > 0.0) {
-      take(closeness,
-           {std::max(a.nearer, b.nearer) / least, std::max(a.lean, b.lean) / least, 0.0});
+      take_near(a, b, least);
     } else {
-      closeness.per_scale = closeness.per_drift = kNever;
+      others.closeness.per_scale = others.closeness.per_drift = kNever;
+      others.near.rest.per_scale = kNever;
     }
   };
   const BodyDistance a = from_body(body, path.from(segment), at.point);
   const BodyDistance b = from_body(body, path.to(segment), at.point);
   const double least = LeastDistance(body, motion, at.point).find({0.0, a}, {1.0, b}, enough);
   if (least > enough) {
-    take(closeness, {2.0 * largest_ / least, 1.0 / least, 0.0});
+    take(others.closeness, {2.0 * largest_ / least, 1.0 / least, 0.0});
   } else {
     take_part(take_part, moment(0.0), moment(1.0), 0);
   }
@@ -322,11 +387,12 @@ bool is_in(std::span<const BlockRange> ranges, std::uint32_t block) {
   return std::ranges::any_of(ranges, [block](const BlockRange& r) { return r.has(block); });
 }
 
-Closeness WindowBounds::others(const ContactPlace& at, std::span<const BlockRange> but, int tool,
-                               const ApproachLine& line) {
+WindowBounds::Others WindowBounds::others(const ContactPlace& at, std::span<const BlockRange> but,
+                                          int tool, const ApproachLine& line) {
   const ToolPath& path = workpiece_.removed().path();
   const double far = kFarOff * largest_;
-  Closeness closeness{2.0 * largest_ / far, 1.0 / far, 0.0};
+  Others others{{2.0 * largest_ / far, 1.0 / far, 0.0}, {}};
+  others.near.far = far;
   // The cutter itself clears the way from the start: the point of the ball is in it then, and seen
   // from this cutter moves along the surface only, but for the turn of the line of approach (mm).
   constexpr double kTurned = 0.01;
@@ -335,18 +401,24 @@ Closeness WindowBounds::others(const ContactPlace& at, std::span<const BlockRang
   constexpr double kLeastInside = 1e-3;  // mm: hardly cut at all
   double inside = far;
   while (inside > kLeastInside && !is_inside_blank(at.point, inside)) inside *= 0.8;
-  if (!(cleared > 0.0) || !(inside > kLeastInside)) return {kNever, kNever, 0.0};
-  take(closeness, {kTurned / cleared, 1.0 / cleared, 0.0});
-  take(closeness, {0.0, 0.0, 1.0 / inside});
+  if (!(cleared > 0.0) || !(inside > kLeastInside)) return {{kNever, kNever, 0.0}, {}};
+  for (Closeness* both : {&others.closeness, &others.near.rest}) {
+    take(*both, {kTurned / cleared, 1.0 / cleared, 0.0});
+    take(*both, {0.0, 0.0, 1.0 / inside});
+  }
   const Vec3 room = Vec3::Constant(far);
   const Box near{at.point - room, at.point + room};
   for (std::uint32_t s = 0; s < path.segments.size(); ++s) {
-    const kinematics::PathSegment& segment = path.segments[s];
-    if (!overlap(boxes_[s], near) || is_in(but, segment.block)) continue;
-    take_segment(closeness, at, segment, path.blocks[segment.block].tool);
-    if (!std::isfinite(closeness.per_scale)) break;
+    if (!overlap(boxes_[s], near) || is_in(but, path.segments[s].block)) continue;
+    take_segment(others, at, s);
+    if (!std::isfinite(others.closeness.per_scale)) return others;
   }
-  return closeness;
+  others.near.is_known = near_.places.size() < kMostPlaces;
+  for (const Vec3& motion : at.motions) {
+    others.near.own.push_back({static_cast<float>(motion.x()), static_cast<float>(motion.y()),
+                               static_cast<float>(motion.z())});
+  }
+  return others;
 }
 
 }  // namespace frustum::trials

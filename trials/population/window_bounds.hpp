@@ -16,6 +16,7 @@
 #include <functional>
 #include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/box.hpp"
@@ -23,6 +24,7 @@
 #include "stock/solid/workpiece.hpp"
 #include "trials/population/column_motion.hpp"
 #include "trials/population/lane_contact.hpp"
+#include "trials/population/near_parts.hpp"
 
 namespace frustum::trials {
 
@@ -77,12 +79,17 @@ class WindowBounds {
   [[nodiscard]] SideBound side(const ContactPlace& at, const LaneFace& face, int tool,
                                const PlaceOnPath& end, std::span<const PlaceOnPath> beyond);
   // Of all blocks but those of the ranges, of the blank, and of the way that the ball comes.
-  [[nodiscard]] Closeness others(const ContactPlace& at, std::span<const BlockRange> but, int tool,
-                                 const ApproachLine& line);
+  struct Others {
+    Closeness closeness{};
+    NearParts near{};
+  };
+  [[nodiscard]] Others others(const ContactPlace& at, std::span<const BlockRange> but, int tool,
+                              const ApproachLine& line);
+  // Those of all near parts that were found.
+  [[nodiscard]] NearPlaces take_places() { return std::move(near_); }
 
  private:
-  // Motions of all columns, six numbers each.
-  using Motions = std::vector<std::array<float, 6>>;
+  using Motions = ColumnMotions;
   using Known = std::map<std::uint32_t, Motions>;
   [[nodiscard]] double tool_length(int tool) const;
   // Of the sum over all columns, each at its point's motion of that size.
@@ -96,8 +103,11 @@ class WindowBounds {
                                            const Motions& motions) const;
   [[nodiscard]] double sum_at_limits(std::span<const double> by) const;
   void measure_largest();
-  void take_segment(Closeness& closeness, const ContactPlace& at,
-                    const kinematics::PathSegment& segment, int tool);
+  void take_segment(Others& others, const ContactPlace& at, std::uint32_t segment);
+  // At time t of a segment of the path.
+  [[nodiscard]] kinematics::AxisState state_at(const kinematics::PathSegment& segment,
+                                               double t) const;
+  [[nodiscard]] NearPart::End near_end(std::uint32_t segment, double t, const Vec3& normal);
   [[nodiscard]] bool is_inside_blank(const Vec3& point, double margin) const;
 
   const kinematics::Setup& setup_;
@@ -105,6 +115,8 @@ class WindowBounds {
   const stock::Workpiece& workpiece_;
   std::vector<Box> boxes_{};  // of what each segment of the path sweeps
   double largest_ = 0.0;
+  NearPlaces near_{};
+  std::map<std::pair<std::uint32_t, double>, std::uint32_t> near_known_{};  // by segment and time
   Known of_poses_{}, of_places_{};  // of the path, and others
 };
 
