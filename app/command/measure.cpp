@@ -1,7 +1,10 @@
 // frustum measure: the virtual CMM on a job's part or on a mesh, or the evaluation of real CMM
 // points.
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <memory>
+#include <system_error>
 
 #include "app/command/cmm_option.hpp"
 #include "app/command/command_line.hpp"
@@ -267,6 +270,12 @@ int measure_by_plan(const MeasureOptions& options) {
   return write_and_show(*set, report, *plan, *exports, options);
 }
 
+bool is_same_place(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code unknown;
+  return std::filesystem::weakly_canonical(a, unknown) ==
+         std::filesystem::weakly_canonical(b, unknown);
+}
+
 int measure(const MeasureOptions& options) {
   const int sources = int{!options.points.empty()} + int{!options.mesh.empty()};
   const bool by_plan = options.job.empty() && !options.plan.empty() &&
@@ -275,6 +284,11 @@ int measure(const MeasureOptions& options) {
   if (!by_plan && !options.plan_export.empty()) {
     return conflicting(options, "--export-plan goes with --plan",
                        "frustum measure --plan PLAN.toml --export-plan PLAN.qif");
+  }
+  for (const std::string& file : options.exports) {
+    if (options.plan_export.empty() || !is_same_place(file, options.plan_export)) continue;
+    return conflicting(options, fmt::format("--export-plan and --export write {}", file),
+                       "choose another name for one of them");
   }
   if (by_plan && sources == 0 && (options.json || !options.exports.empty())) {
     return conflicting(options, "--json and --export need --points or --mesh",

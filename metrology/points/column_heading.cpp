@@ -130,7 +130,7 @@ std::span<const std::string_view> known_columns() { return kNames; }
 bool is_text_column(std::string_view name) { return name == "feature" || name == "point"; }
 
 ColumnHeading column_heading(std::string_view text) {
-  const ApproachDirection bracketed = approach_direction_of(text);
+  const NameWithUnit bracketed = name_with_unit(text);
   ColumnHeading heading{bracketed.name, bracketed.unit};
   std::vector<std::string> words = words_in(heading.name);
   if (std::string name = name_of(words); !name.empty()) {

@@ -89,13 +89,16 @@ Result<std::optional<LengthUnit>> stated_unit(std::string_view comment) {
   return text.size() > 1 && text != "in" ? length_unit(text) : std::nullopt;
 }
 
-ApproachDirection approach_direction_of(std::string_view text) {
+NameWithUnit name_with_unit(std::string_view text) {
   const std::string all = lower(trimmed(text));
   for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
     const auto at = all.find(open);
     if (at != std::string::npos && all.back() == close) {
-      return {std::string(trimmed(std::string_view(all).substr(0, at))),
-              std::string(trimmed(std::string_view(all).substr(at + 1, all.size() - at - 2)))};
+      const auto inside = std::string_view(all).substr(at + 1, all.size() - at - 2);
+      std::string unit(trimmed(inside));
+      // The sign of inches, twice where it is quoted itself.
+      if (unit.empty() && inside.find('"') != std::string_view::npos) unit = "inch";
+      return {std::string(trimmed(std::string_view(all).substr(0, at))), std::move(unit)};
     }
   }
   const bool is_coordinate = all.size() > 2 && all[0] >= 'x' && all[0] <= 'z' && all[1] == '_';

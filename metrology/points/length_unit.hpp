@@ -31,13 +31,13 @@ struct LengthUnit {
 // "inch".
 [[nodiscard]] Result<std::optional<LengthUnit>> stated_unit(std::string_view comment);
 
-// A column heading and the unit in it: "x [inch]", "X(mm)", "y_um". In lower case; unit may be
-// empty.
-struct ApproachDirection {
+// A column heading and the unit in it: "x [inch]", "X(mm)", "x [\"]", "y_um". In lower case; unit
+// may be empty.
+struct NameWithUnit {
   std::string name{};
   std::string unit{};
 };
-[[nodiscard]] ApproachDirection approach_direction_of(std::string_view text);
+[[nodiscard]] NameWithUnit name_with_unit(std::string_view text);
 
 // What a file states against what the caller says.
 [[nodiscard]] Diagnostic unlike_units(const LengthUnit& stated, const LengthUnit& asked);

@@ -22,10 +22,8 @@ struct PublicPackage {
 
 const std::vector<PublicPackage>& public_packages() {
   static const std::vector<PublicPackage> kPackages{
-      {"Eigen/", "find_dependency(Eigen3"},
-      {"boost/container/", "find_dependency(Boost"},
-      {"boost/numeric/", "find_dependency(Boost"},
-      {"pugixml.hpp", "find_dependency(pugixml"},
+      {"Eigen/", "find_dependency(Eigen3"},        {"boost/container/", "find_dependency(Boost"},
+      {"boost/numeric/", "find_dependency(Boost"}, {"pugixml.hpp", "find_dependency(pugixml"},
       {"OpenMesh/", "find_dependency(OpenMesh"},
   };
   return kPackages;

@@ -128,6 +128,8 @@ TEST(PointTable, KnowsColumnsInEnglishAndGerman) {
   EXPECT_EQ(name("Punkt-Nr."), "point");
   EXPECT_EQ(name("Schnitt"), "section");
   EXPECT_EQ(column_heading("Y-Istwert [inch]").unit, "inch");
+  EXPECT_EQ(column_heading("x [\"]").unit, "inch");
+  EXPECT_EQ(column_heading("x (\"\")").name, "x");
   EXPECT_EQ(column_heading("y_act_um").unit, "um");
   EXPECT_EQ(column_heading("Y in mm").unit, "mm");
   EXPECT_EQ(column_heading("y_in").unit, "in");
