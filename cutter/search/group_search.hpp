@@ -21,52 +21,18 @@
 
 #include "core/box.hpp"
 #include "core/constants.hpp"
+#include "cutter/search/gap_pieces.hpp"
 #include "cutter/search/group_reach.hpp"
 #include "cutter/search/prefetch.hpp"
 #include "cutter/search/quad_crossing.hpp"
 #include "cutter/search/ray_search.hpp"
+#include "cutter/search/search_goal.hpp"
 #include "cutter/sweep/concave_sweep.hpp"
 #include "cutter/sweep/swept_box.hpp"
 
 namespace frustum::cutter {
 
-// What the ends found so far leave of a group: nothing, nothing of its representative, nothing
-// before or beyond a place.
-struct GroupLimit {
-  bool holds = false;
-  bool counts_representative = true;
-  double hi = kInfinity, lo = -kInfinity;
-};
-
-// Of the groups of a quad.
-using QuadLimit = std::array<GroupLimit, kSiblings>;
-
-// The segments of a leaf; in lanes from `count` on the first of them.
-struct LeafMotions {
-  std::array<std::uint32_t, kMostInLeaf> segments{};
-  MotionFour motions{};
-  std::size_t count = 0;
-};
-
-// What promises most comes first. The goal knows what it still wants:
-//   RaySpan span()            where on the ray
-//   QuadLimit limit(quad, in_box)  what do the ends found so far, by their planes, leave of the
-//                             groups, which are there on the ray?
-//   double room(segment, from, to)  do they leave nothing of the segment, which is between these
-//                             poses? Not if it is less than 0, the less the more is left
-//   DoubleFour rooms(leaf)    the same of the segments of a leaf
-//   RaySpan counted(reach)    what of a reach counts, slack and rounding considered
-//   bool wants(group, span)   could this, as it counts, still add anything?
-//   bool wants_lo(lo)         does it matter where a group begins whose representative begins
-//   there? double promise(reach)     the more, the sooner it is asked
-//   void take(interval)       covered for certain
-//   void take_solved(interval)  what a segment covers: its own ends
-//   span<const Chord> known() is covered anyway
-//   span<const Chord> floors() ends of segments inside these need not be exact
-//   kSolvesWhole              a solution finds all of a segment's ends, whatever is covered: costly
-//   bool wants_piece(group, lo, hi)  could a piece of ray still add anything?
-//   double begins_by()        what begins beyond adds nothing before more is covered
-//   int change()              another number whenever more is covered
+// What promises most comes first; the goal is as search_goal.hpp has it.
 template <class Goal>
 class GroupSearch {
  public:
@@ -111,14 +77,7 @@ class GroupSearch {
   }
   void finish() {
     run_until([] { return false; });
-    std::ranges::reverse(gaps_);
-    // Of what begins too far ahead for now more may count when more is covered.
-    for (int change = goal_.change() - 1; change != goal_.change() && !gaps_.empty();) {
-      change = goal_.change();
-      std::erase_if(gaps_, [&](const Gap& gap) {
-        return !goal_.wants_piece(gap.group, gap.lo.s, gap.hi.s) || !walk(gap);
-      });
-    }
+    while (!gaps_.empty() && walk_gaps()) continue;
     gaps_.clear();
   }
 
@@ -464,9 +423,26 @@ class GroupSearch {
     return {end.s, end.t, end.face};
   }
 
-  // Whether anything may be left of it.
-  bool walk(const Gap& gap) {
-    if (room_of(gap.segment) >= 0.0) return false;
+  // Whether more may count now: what begins too far ahead waits until more is covered.
+  bool walk_gaps() {
+    const int change = goal_.change();
+    const double begins_by = goal_.begins_by();
+    std::erase_if(gaps_, [&](const Gap& gap) {
+      return !goal_.wants_piece(gap.group, gap.lo.s, gap.hi.s) || room_of(gap.segment) >= 0.0;
+    });
+    near_.clear();
+    for (const Gap& gap : gaps_) {
+      const double from = std::max(gap.lo.s, goal_.span().lo);
+      near_.push_back({gap.segment, from, std::max(from, std::min(gap.hi.s, begins_by))});
+    }
+    for (const GapPiece& piece : pieces_to_walk(question_, *sweep_.body, near_)) {
+      const Gap& gap = gaps_[piece.gap];
+      walk(gap, piece.lo, piece.hi == near_[piece.gap].hi ? gap.hi.s : piece.hi);
+    }
+    return begins_by < kInfinity && goal_.change() != change;
+  }
+  void walk(const Gap& gap, double from, double to) {
+    if (!goal_.wants_piece(gap.group, from, to) || room_of(gap.segment) >= 0.0) return;
     const SegmentMotion motion = motion_of(gap.segment);
     const ConcaveSweep concave(*sweep_.body, motion, question_.ray);
     const auto end_at = [&](const SweptEnd& end) -> SweptIntervalEnd {
@@ -476,11 +452,9 @@ class GroupSearch {
       return {end.s, gap.segment, kConcaveSurface, end.t, end.face};
     };
     found_.clear();
-    const double begins_by = goal_.begins_by();
-    for_each_unknown(gap.lo.s, gap.hi.s,
-                     [&](double lo, double hi) { concave.walk(lo, hi, found_, begins_by); });
+    for_each_unknown(
+        from, to, [&](double lo, double hi) { concave.walk(lo, hi, found_, goal_.begins_by()); });
     for (const SegmentInterval& f : found_) take_solved({end_at(f.lo), end_at(f.hi)});
-    return gap.hi.s > begins_by;
   }
 
   const RayQuestion& question_;
@@ -495,6 +469,7 @@ class GroupSearch {
   bool has_best_ = false;
   FewSegmentIntervals found_{};
   std::vector<Gap> gaps_{}, covered_{};
+  std::vector<RayGap> near_{};
 };
 
 }  // namespace frustum::cutter
