@@ -271,9 +271,13 @@ int measure_by_plan(const MeasureOptions& options) {
 }
 
 bool is_same_place(const std::filesystem::path& a, const std::filesystem::path& b) {
-  std::error_code unknown;
-  return std::filesystem::weakly_canonical(a, unknown) ==
-         std::filesystem::weakly_canonical(b, unknown);
+  const auto place = [](const std::filesystem::path& file) {
+    std::error_code unknown;
+    const auto whole = std::filesystem::absolute(file, unknown);
+    const auto found = std::filesystem::weakly_canonical(whole, unknown);
+    return unknown ? whole.lexically_normal() : found;
+  };
+  return place(a) == place(b);
 }
 
 int measure(const MeasureOptions& options) {

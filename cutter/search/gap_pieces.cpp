@@ -56,7 +56,8 @@ class GapSearch {
     const double spread = spread_of(run, middle), half = 0.5 * (to - from);
     const double away = body_.distance(middle, question_.ray.at(from + half));
     if (away >= half + spread) return;
-    if (half > spread) {
+    constexpr double kLeast = 1e-9;  // mm, above rounding
+    if (half > std::max(spread, kLeast)) {
       look(run, from, from + half);
       look(run, from + half, to);
     } else {

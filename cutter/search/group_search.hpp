@@ -5,6 +5,7 @@
 //            first, down to the path segments themselves. What a concave body covers beside its
 //            convex parts is asked last. What covers nothing within the span changes nothing, not
 //            even the order of the others: segments that are far from a ray may be excluded or not
+//            (where there are concave parts ends may differ by their rounding then)
 // Units    : mm along the ray; frame: workpiece
 // Errors   : none
 // Accuracy : as ray_search.hpp
@@ -77,8 +78,7 @@ class GroupSearch {
   }
   void finish() {
     run_until([] { return false; });
-    while (!gaps_.empty() && walk_gaps()) continue;
-    gaps_.clear();
+    while (has_gaps_to_walk()) walk_gaps();
   }
 
   // What the cutter covers where this segment begins.
@@ -423,23 +423,27 @@ class GroupSearch {
     return {end.s, end.t, end.face};
   }
 
-  // Whether more may count now: what begins too far ahead waits until more is covered.
-  bool walk_gaps() {
-    const int change = goal_.change();
-    const double begins_by = goal_.begins_by();
+  // What begins too far ahead waits until more is covered.
+  [[nodiscard]] bool has_gaps_to_walk() const {
+    return !gaps_.empty() && (walked_at_ != goal_.change() || walked_ != gaps_.size());
+  }
+  void walk_gaps() {
     std::erase_if(gaps_, [&](const Gap& gap) {
       return !goal_.wants_piece(gap.group, gap.lo.s, gap.hi.s) || room_of(gap.segment) >= 0.0;
     });
+    walked_at_ = goal_.change();
+    walked_ = gaps_.size();
     near_.clear();
     for (const Gap& gap : gaps_) {
       const double from = std::max(gap.lo.s, goal_.span().lo);
-      near_.push_back({gap.segment, from, std::max(from, std::min(gap.hi.s, begins_by))});
+      near_.push_back({gap.segment, from, std::max(from, std::min(gap.hi.s, goal_.begins_by()))});
     }
     for (const GapPiece& piece : pieces_to_walk(question_, *sweep_.body, near_)) {
       const Gap& gap = gaps_[piece.gap];
       walk(gap, piece.lo, piece.hi == near_[piece.gap].hi ? gap.hi.s : piece.hi);
     }
-    return begins_by < kInfinity && goal_.change() != change;
+    // Else they may count when more is covered.
+    if (goal_.begins_by() == kInfinity) gaps_.clear();
   }
   void walk(const Gap& gap, double from, double to) {
     if (!goal_.wants_piece(gap.group, from, to) || room_of(gap.segment) >= 0.0) return;
@@ -470,6 +474,9 @@ class GroupSearch {
   FewSegmentIntervals found_{};
   std::vector<Gap> gaps_{}, covered_{};
   std::vector<RayGap> near_{};
+  // When the gaps were walked, by the goal's change, and how many there were.
+  int walked_at_ = -1;
+  std::size_t walked_ = 0;
 };
 
 }  // namespace frustum::cutter

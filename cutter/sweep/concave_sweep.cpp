@@ -451,6 +451,8 @@ ConcaveSweep::Nearest ConcaveSweep::lowest(double s, double lo, double hi) const
 }
 
 SweptEnd ConcaveSweep::close_in(double a, Nearest at_a, double b, Nearest at_b) const {
+  if (at_a.distance == 0.0) return {a, at_a.t};
+  if (at_b.distance == 0.0) return {b, at_b.t};
   std::uintmax_t looks = 100;
   const bool from_inside = at_a.distance < 0.0;
   SweptEnd inside = from_inside ? SweptEnd{a, at_a.t} : SweptEnd{b, at_b.t};

@@ -48,7 +48,8 @@ class ConcaveSweep {
   // Whether a ray slides along the end of a body that turns: sweeps of hulls take long then, and to
   // walk does not.
   [[nodiscard]] bool slides() const;
-  // Appends what is covered between lo and hi and begins no farther than `begins_by`.
+  // Appends what is covered between lo and hi and begins no farther than `begins_by`; of what does
+  // not go on beyond that nothing, and what begins shortly before is said to begin there.
   void walk(double lo, double hi, SegmentIntervals& found, double begins_by = kInfinity) const;
   // When the body's surface, or its inside, is nearest to the ray's point at s.
   [[nodiscard]] double nearest_state(double s) const { return nearest(s, 0.5, Want::least).t; }

@@ -257,7 +257,8 @@ Middle Round::middle_of(const Edge& edge) const {
     return {found->point, found->normal, VertexKind::surface,
             way.norm() * found->normal.dot(normal)};
   }
-  return {at, ways[1], VertexKind::averaged, 0.0};
+  const Vec3& outward = ways[0].norm() > 0.0 ? ways[0] : ways[1];
+  return {at, outward.normalized(), VertexKind::averaged, 0.0};
 }
 
 double Round::centre_chord(std::uint32_t t) const {

@@ -175,7 +175,8 @@ PlacedVertex beside_mean(SolidView solid, Samples samples, const BoundingBox& al
   for (const HermiteSample& sample : samples) {
     const auto found =
         nearest_surface(solid, mean, sample.normal, 2.0 * kReach * pitch, {{&sample.tag, 1}, near});
-    if (!found || !contains(allowed, found->point)) continue;
+    if (!found || found->normal.dot(sample.normal) < 0.5 || !contains(allowed, found->point))
+      continue;
     const double distance = (found->point - mean).norm();
     if (distance >= nearest) continue;
     nearest = distance;

@@ -109,6 +109,8 @@ TEST_F(ExchangeFormatsSystem, QifPlansGoBothWays) {
   expect_refusal("measure --plan piece/cone.plan.toml --export-plan p.qif --json", {"--points"});
   expect_refusal(plan + "--export-plan made/../made/p.qif --export made/p.qif",
                  {"--export-plan and --export write made/p.qif"});
+  expect_refusal(plan + "--export-plan ./new.qif --export new.qif",
+                 {"--export-plan and --export write new.qif"});
   expect_refusal("measure piece/job.toml --export-plan p.qif", {"--export-plan goes with --plan"});
   std::string cut = read(folder_ / "made/p.qif");
   write("cut.qif", cut.substr(0, cut.size() / 2));

@@ -57,11 +57,11 @@ bool MachineNearness::keep_away(const NearParts& near, const Vec3& point, double
     const Vec3 normal = end.normal.cast<double>();
     const double by_own = normal.dot(own);
     const double by_other = normal.dot(at(end.place).at(point - places_.places[end.place].tip));
-    return by_own - by_other + kSecondOrder * (std::abs(by_own) + std::abs(by_other));
+    return by_other - by_own + kSecondOrder * (std::abs(by_own) + std::abs(by_other));
   };
   return std::ranges::all_of(near.parts, [&](const NearPart& part) {
     const double most = std::max({0.0, nearer(part.ends[0]), nearer(part.ends[1])});
-    return most + part.lean * drift < part.distance;
+    return most + part.lean * drift < part.between * part.distance;
   });
 }
 

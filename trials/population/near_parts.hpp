@@ -4,7 +4,8 @@
 //            columns there; it moves the contact by the sum of the columns where that was made. The
 //            difference along the normal brings them nearer. window_bounds.hpp bounds it for all
 //            machines within their laws, with every column for the worst; here it is what one
-//            machine has, however far outside of its laws that is
+//            machine has, however far outside of its laws that is. Between the ends of a part the
+//            normal turns from the one to the other
 // Units    : mm, rad; frame: workpiece
 // Errors   : none
 // Accuracy : first order, with 2 % of either motion for what is of second order
@@ -39,7 +40,10 @@ struct NearPart {
     Eigen::Vector3f normal = Vec3::UnitZ().cast<float>();  // out of the cutter, to the contact
   };
   float distance = 0.0F;  // of the contact, at least
-  float lean = 0.0F;      // sine of the angle between the normals there and at the contact, at most
+  // Cosine of half of the angle between the normals at both ends: along none between them is a
+  // motion more than the larger of what it is along both, divided by this.
+  float between = 1.0F;
+  float lean = 0.0F;  // sine of the angle between the normals there and at the contact, at most
   std::array<End, 2> ends{};
 };
 

@@ -89,6 +89,11 @@ void take(Closeness& worst, const Closeness& one) {
 
 Vec3 across(const Vec3& v, const Vec3& normal) { return v - v.dot(normal) * normal; }
 
+// Of half of the angle between two unit vectors; above 0.
+double cosine_between(const Vec3& a, const Vec3& b) {
+  return std::sqrt(std::max(0.5 * (1.0 + a.dot(b)), 1e-12));
+}
+
 ColumnMotions numbers_of(std::span<const PoseDisplacement> motions) {
   ColumnMotions numbers(motions.size());
   for (std::size_t j = 0; j < motions.size(); ++j) {
@@ -192,7 +197,7 @@ std::vector<double> WindowBounds::nearer(const ContactPlace& at, const Vec3& nor
     const auto& d = motions[j];
     const double motion = normal.x() * d[0] + normal.y() * d[1] + normal.z() * d[2] +
                           moment.x() * d[3] + moment.y() * d[4] + moment.z() * d[5];
-    by[j] = normal.dot(at.motions[j]) - motion;
+    by[j] = motion - normal.dot(at.motions[j]);
   }
   return by;
 }
@@ -259,16 +264,17 @@ NearPart::End WindowBounds::near_end(std::uint32_t index, double t, const Vec3& 
   const auto key =
       is_pose ? std::pair{segment.first_pose + (t == 0.0 ? 0U : 1U), kPose} : std::pair{index, t};
   const auto next = static_cast<std::uint32_t>(near_.places.size());
-  if (next == kMostPlaces) return {};  // and then the point's are not known
-  const auto [known, is_new] = near_known_.try_emplace(key, next);
-  if (is_new) {
+  const auto known = near_known_.find(key);
+  if (known != near_known_.end()) return {known->second, normal.cast<float>()};
+  if (next < kMostPlaces) {  // else the point's are not known then
+    near_known_.emplace(key, next);
     const int tool = path.blocks[segment.block].tool;
     const cutter::SegmentMotion motion(path, segment,
                                        workpiece_.removed().tool(tool).body().reach());
     Known fresh;
     near_.places.push_back({motion.at(t).tip, motions_at(fresh, 0, state_at(segment, t), tool)});
   }
-  return {known->second, normal.cast<float>()};
+  return {next, normal.cast<float>()};
 }
 
 void WindowBounds::take_segment(Others& others, const ContactPlace& at, std::uint32_t index) {
@@ -303,8 +309,11 @@ void WindowBounds::take_segment(Others& others, const ContactPlace& at, std::uin
     return m;
   };
   const auto take_near = [&](const Moment& a, const Moment& b, double least) {
-    const Closeness one{std::max(a.nearer, b.nearer) / least, std::max(a.lean, b.lean) / least,
-                        0.0};
+    const bool is_far = a.off.value > enough || b.off.value > enough;
+    const double lean = is_far ? 1.0 : std::max(a.lean, b.lean);
+    const double between = is_far ? 1.0 : cosine_between(a.off.out, b.off.out);
+    const double worth = between * least;
+    const Closeness one{std::max(a.nearer, b.nearer) / worth, lean / worth, 0.0};
     take(others.closeness, one);
     if (one.per_scale <= kWithin) {
       take(others.near.rest, one);
@@ -312,7 +321,8 @@ void WindowBounds::take_segment(Others& others, const ContactPlace& at, std::uin
     }
     constexpr double kRounding = 1e-6;
     NearPart part{static_cast<float>(least * (1.0 - kRounding)),
-                  static_cast<float>(std::max(a.lean, b.lean) * (1.0 + kRounding))};
+                  static_cast<float>(between * (1.0 - kRounding)),
+                  static_cast<float>(lean * (1.0 + kRounding))};
     for (std::size_t k = 0; k < 2; ++k) {
       const Moment& m = k == 0 ? a : b;
       if (!(m.off.value > enough)) part.ends[k] = near_end(index, m.t, m.off.out);
@@ -326,7 +336,9 @@ void WindowBounds::take_segment(Others& others, const ContactPlace& at, std::uin
         LeastDistance(body, motion, at.point).find({a.t, a.off}, {b.t, b.off}, enough);
     constexpr int kDeepest = 8;
     const double most = std::max(a.off.value, b.off.value);
-    const bool is_long = most > 1.2 * least && motion.travel() * (b.t - a.t) > 0.02;
+    constexpr double kTurned = 0.98;
+    const bool is_uneven = most > 1.2 * least || cosine_between(a.off.out, b.off.out) < kTurned;
+    const bool is_long = is_uneven && motion.travel() * (b.t - a.t) > 0.02;
     if (least < enough && is_long && depth < kDeepest) {
       const Moment middle = moment(0.5 * (a.t + b.t));
       self(self, a, middle, depth + 1);

@@ -3,7 +3,7 @@
 //
 // Model    : a point p that a cutter touches with the outward normal n. A column moves what is at p
 //            by g_j(q) when the cutter is at place q of the path; relative to the contact's own
-//            cutter it comes nearer along the normal n_q, towards p, by n_q . (g_j(own) - g_j(q)).
+//            cutter it comes nearer along the normal n_q, towards p, by n_q . (g_j(q) - g_j(own)).
 //            Weights at their limits, all for the worst, bound the sum
 // Units    : mm, rad; frame: workpiece
 // Errors   : none
