@@ -5,6 +5,7 @@
 // Units    : those of the function
 // Errors   : none; of a function with several valleys it finds one of them
 // Accuracy : as golden_section.hpp
+//            (Boost's stops at half of the digits of the place, too early for a sharp bottom)
 // Source   : Brent 1973, Algorithms for Minimization without Derivatives, chapter 5
 #pragma once
 

@@ -1,4 +1,4 @@
-// What a search of groups asks its goal, and what it is told.
+// What a search of groups asks its goal.
 //
 // Model    : the goal knows what is covered and what it still wants of the ray. A class has, to be
 //            one:
