@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <system_error>
 
 #include "app/command/cmm_option.hpp"
 #include "app/command/command_line.hpp"
@@ -16,6 +15,7 @@
 #include "app/job/job_evidence.hpp"
 #include "app/job/job_report.hpp"
 #include "app/job/plan_export.hpp"
+#include "app/job/program_files.hpp"
 #include "app/job/trial_run.hpp"
 #include "app/view/console.hpp"
 #include "core/file_set.hpp"
@@ -270,16 +270,6 @@ int measure_by_plan(const MeasureOptions& options) {
   return write_and_show(*set, report, *plan, *exports, options);
 }
 
-bool is_same_place(const std::filesystem::path& a, const std::filesystem::path& b) {
-  const auto place = [](const std::filesystem::path& file) {
-    std::error_code unknown;
-    const auto whole = std::filesystem::absolute(file, unknown);
-    const auto found = std::filesystem::weakly_canonical(whole, unknown);
-    return unknown ? whole.lexically_normal() : found;
-  };
-  return place(a) == place(b);
-}
-
 int measure(const MeasureOptions& options) {
   const int sources = int{!options.points.empty()} + int{!options.mesh.empty()};
   const bool by_plan = options.job.empty() && !options.plan.empty() &&
@@ -290,7 +280,7 @@ int measure(const MeasureOptions& options) {
                        "frustum measure --plan PLAN.toml --export-plan PLAN.qif");
   }
   for (const std::string& file : options.exports) {
-    if (options.plan_export.empty() || !is_same_place(file, options.plan_export)) continue;
+    if (!is_same_file(file, options.plan_export)) continue;
     return conflicting(options, fmt::format("--export-plan and --export write {}", file),
                        "choose another name for one of them");
   }

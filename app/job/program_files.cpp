@@ -166,7 +166,9 @@ FolderPrograms programs_in(const fs::path& folder, const FolderOptions& options)
 
 std::string whole_name(const std::string& file) {
   std::error_code failure;
-  const fs::path whole = file == "-" ? fs::path() : fs::weakly_canonical(file, failure);
+  // Of a file that is not there yet the way is relative else.
+  const fs::path whole =
+      file == "-" ? fs::path() : fs::weakly_canonical(fs::absolute(file, failure), failure);
   return whole.empty() || failure ? file : whole.string();
 }
 
