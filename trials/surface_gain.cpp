@@ -12,6 +12,7 @@
 #include "core/golden_section.hpp"
 #include "cutter/search/contact_range.hpp"
 #include "kinematics/errors/error_gain.hpp"
+#include "trials/population/column_motion.hpp"
 
 namespace frustum::trials {
 namespace {
@@ -50,13 +51,7 @@ Result<std::map<int, RadiusPair>> radius_pairs(const TestPiece& piece) {
 
 kinematics::AxisState axes_at(const kinematics::ToolPath& path, const PathState& state) {
   const std::uint32_t first = path.segments[state.segment].first_pose;
-  kinematics::AxisState at = path.axes[first];
-  const kinematics::AxisState& next = path.axes[first + 1];
-  for (const auto letter : kinematics::kAxisLetters) {
-    at.q[letter] += state.t * (next.q[letter] - at.q[letter]);
-    at.heading[letter] += state.t * (next.heading[letter] - at.heading[letter]);
-  }
-  return at;
+  return state_between(path.axes[first], path.axes[first + 1], state.t);
 }
 
 class GainAtPoint {

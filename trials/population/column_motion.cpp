@@ -8,6 +8,16 @@ using kinematics::AxisErrors;
 using kinematics::ErrorDirection;
 using kinematics::ErrorName;
 
+kinematics::AxisState state_between(const kinematics::AxisState& from,
+                                    const kinematics::AxisState& to, double share) {
+  kinematics::AxisState state = from;
+  for (const auto letter : kinematics::kAxisLetters) {
+    state.q[letter] += share * (to.q[letter] - from.q[letter]);
+    state.heading[letter] += share * (to.heading[letter] - from.heading[letter]);
+  }
+  return state;
+}
+
 ColumnMotion::ColumnMotion(const kinematics::Machine& machine, const PopulationLaws& laws,
                            const Pose& table_from_workpiece)
     : machine_(&machine), workpiece_from_table_(table_from_workpiece.inverse().rotation) {

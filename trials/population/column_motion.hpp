@@ -15,6 +15,10 @@
 
 namespace frustum::trials {
 
+// At a share of the way from one state to the next, headings too.
+[[nodiscard]] kinematics::AxisState state_between(const kinematics::AxisState& from,
+                                                  const kinematics::AxisState& to, double share);
+
 class ColumnMotion {
  public:
   ColumnMotion(const kinematics::Machine& machine, const PopulationLaws& laws,

@@ -369,12 +369,7 @@ class Planner {
     const auto& a = plan_.motion.states[piece.node[tau < 0.5 ? 0 : 1]];
     const auto& b = plan_.motion.states[piece.node[tau < 0.5 ? 1 : 2]];
     const double share = tau < 0.5 ? 2.0 * tau : 2.0 * tau - 1.0;
-    kinematics::AxisState state = a;
-    for (const auto letter : kinematics::kAxisLetters) {
-      state.q[letter] += share * (b.q[letter] - a.q[letter]);
-      state.heading[letter] += share * (b.heading[letter] - a.heading[letter]);
-    }
-    return state;
+    return state_between(a, b, share);
   }
 
   // The piece that lets the ball go deepest; where none meets its line, that with the cutter

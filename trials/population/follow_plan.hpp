@@ -7,7 +7,7 @@
 //            contact is summed over all columns at their limits: of pieces in the surroundings what
 //            the ends of the window do not tell (the second differences along the path), of other
 //            passes all of it, of what is farther off twice the largest motion of any point.
-//            Of one machine the same is told from its own weights (near_parts.hpp)
+//            Of one machine the same follows from its own weights (near_parts.hpp)
 // Units    : mm, rad; frame: workpiece
 //            The blank's own surface stays where it is: a contact on it needs no window
 // Errors   : points that cannot be followed say why

@@ -242,17 +242,12 @@ SideBound WindowBounds::side(const ContactPlace& at, const LaneFace& face, int t
   return side;
 }
 
-kinematics::AxisState WindowBounds::state_at(const kinematics::PathSegment& segment,
-                                             double t) const {
+ColumnMotions WindowBounds::motions_of(const kinematics::PathSegment& segment, double t) const {
   const ToolPath& path = workpiece_.removed().path();
-  kinematics::AxisState state = path.axes[segment.first_pose];
-  const kinematics::AxisState& next = path.axes[segment.first_pose + 1];
-  if (t == 1.0) return next;
-  for (const auto letter : kinematics::kAxisLetters) {
-    state.q[letter] += t * (next.q[letter] - state.q[letter]);
-    state.heading[letter] += t * (next.heading[letter] - state.heading[letter]);
-  }
-  return state;
+  const kinematics::AxisState &from = path.axes[segment.first_pose],
+                              &to = path.axes[segment.first_pose + 1];
+  const kinematics::AxisState state = t == 1.0 ? to : state_between(from, to, t);
+  return numbers_of(columns_.at(state, tool_length(path.blocks[segment.block].tool)));
 }
 
 NearPart::End WindowBounds::near_end(std::uint32_t index, double t, const Vec3& normal) {
@@ -268,11 +263,8 @@ NearPart::End WindowBounds::near_end(std::uint32_t index, double t, const Vec3& 
   if (known != near_known_.end()) return {known->second, normal.cast<float>()};
   if (next < kMostPlaces) {  // else the point's are not known then
     near_known_.emplace(key, next);
-    const int tool = path.blocks[segment.block].tool;
-    const cutter::SegmentMotion motion(path, segment,
-                                       workpiece_.removed().tool(tool).body().reach());
-    Known fresh;
-    near_.places.push_back({motion.at(t).tip, motions_at(fresh, 0, state_at(segment, t), tool)});
+    const Vec3 &from = path.from(segment).tip, &to = path.to(segment).tip;
+    near_.places.push_back({from + t * (to - from), motions_of(segment, t)});
   }
   return {next, normal.cast<float>()};
 }
@@ -299,13 +291,14 @@ void WindowBounds::take_segment(Others& others, const ContactPlace& at, std::uin
     m.nearer = 2.0 * largest_;
     if (m.off.value > enough) return m;
     const auto by = [&](const Motions& motions) {
-      return sum_at_limits(nearer(at, m.off.out, pose, motions));
+      return std::min(m.nearer, sum_at_limits(nearer(at, m.off.out, pose, motions)));
     };
-    Known fresh;
-    const bool is_pose = t == 0.0 || t == 1.0;
-    const std::uint32_t id = is_pose ? segment.first_pose + (t == 0.0 ? 0U : 1U) : 0U;
-    m.nearer = std::min(
-        m.nearer, by(motions_at(is_pose ? of_poses_ : fresh, id, state_at(segment, t), tool)));
+    if (t == 0.0 || t == 1.0) {
+      const std::uint32_t end = segment.first_pose + (t == 0.0 ? 0U : 1U);
+      m.nearer = by(motions_at(of_poses_, end, path.axes[end], tool));
+    } else {
+      m.nearer = by(motions_of(segment, t));
+    }
     return m;
   };
   const auto take_near = [&](const Moment& a, const Moment& b, double least) {
@@ -336,13 +329,15 @@ void WindowBounds::take_segment(Others& others, const ContactPlace& at, std::uin
         LeastDistance(body, motion, at.point).find({a.t, a.off}, {b.t, b.off}, enough);
     constexpr int kDeepest = 8;
     const double most = std::max(a.off.value, b.off.value);
-    constexpr double kTurned = 0.98;
+    constexpr double kTurned = 0.98;  // cosine of 11 degrees: what `between` costs then is 2 %
     const bool is_uneven = most > 1.2 * least || cosine_between(a.off.out, b.off.out) < kTurned;
     const bool is_long = is_uneven && motion.travel() * (b.t - a.t) > 0.02;
     if (least < enough && is_long && depth < kDeepest) {
       const Moment middle = moment(0.5 * (a.t + b.t));
       self(self, a, middle, depth + 1);
       self(self, middle, b, depth + 1);
+    } else if (least > enough) {
+      take(others.closeness, {2.0 * largest_ / least, 1.0 / least, 0.0});
     } else if (least > 0.0) {
       take_near(a, b, least);
     } else {

@@ -105,8 +105,7 @@ class WindowBounds {
   void measure_largest();
   void take_segment(Others& others, const ContactPlace& at, std::uint32_t segment);
   // At time t of a segment of the path.
-  [[nodiscard]] kinematics::AxisState state_at(const kinematics::PathSegment& segment,
-                                               double t) const;
+  [[nodiscard]] Motions motions_of(const kinematics::PathSegment& segment, double t) const;
   [[nodiscard]] NearPart::End near_end(std::uint32_t segment, double t, const Vec3& normal);
   [[nodiscard]] bool is_inside_blank(const Vec3& point, double margin) const;
 
