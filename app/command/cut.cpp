@@ -204,12 +204,13 @@ class Cut {
   struct Meshed {
     stock::SurfaceMesh mesh{};
     std::optional<Mm> bound{};
+    std::optional<Refinement> refinement{};
     // What is judged where it is not the mesh itself: decimation takes away the vertices of flat
     // faces.
     std::optional<stock::SurfaceMesh> whole{};
   };
   // Of states that follow each other what did not change is not asked again.
-  [[nodiscard]] Result<stock::SurfaceMesh> ray_surface_of(const stock::WorkpieceAt& part) {
+  [[nodiscard]] Result<FinishedSurface> ray_surface_of(const stock::WorkpieceAt& part) {
     if (options_.snapshots == 0) {
       return finished_surface(job_, part, {options_.pitch, options_.chord});
     }
@@ -224,13 +225,17 @@ class Cut {
   }
   [[nodiscard]] Result<Meshed> surface_of(const stock::WorkpieceAt& part) {
     if (!options_.polyhedral()) {
-      auto mesh = ray_surface_of(part);
-      if (!mesh) return mesh.error();
-      if (options_.decimate <= 0.0) return Meshed{*std::move(mesh), {}, {}};
-      auto fewer = stock::decimate_surface(*mesh, Mm{options_.decimate});
+      auto surface = ray_surface_of(part);
+      if (!surface) return surface.error();
+      if (options_.decimate <= 0.0) {
+        return Meshed{.mesh = std::move(surface->mesh), .refinement = surface->refinement};
+      }
+      auto fewer = stock::decimate_surface(surface->mesh, Mm{options_.decimate});
       if (!fewer) return fewer.error();
       judge_surface(job_, *fewer);
-      return Meshed{*std::move(fewer), {}, *std::move(mesh)};
+      return Meshed{.mesh = *std::move(fewer),
+                    .refinement = surface->refinement,
+                    .whole = std::move(surface->mesh)};
     }
     auto faceted = faceted_surface(part, options_.facets);
     if (!faceted) {
@@ -241,7 +246,7 @@ class Cut {
       return problems;
     }
     judge_surface(job_, faceted->mesh);
-    return Meshed{std::move(faceted->mesh), faceted->bound, {}};
+    return Meshed{.mesh = std::move(faceted->mesh), .bound = faceted->bound};
   }
 
   Failure write_surfaces() {
@@ -279,7 +284,8 @@ class Cut {
                        .triangles = mesh.triangles.size(),
                        .measure = stock::measure(mesh),
                        .deviations = stock::worst_deviations(part(), judged, near),
-                       .faceted_within = meshed.bound};
+                       .faceted_within = meshed.bound,
+                       .refinement = meshed.refinement};
     bool first = true;
     for (const auto& d : judged.deviation) {
       if (!d) continue;

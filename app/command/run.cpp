@@ -75,10 +75,10 @@ int run_job(const RunOptions& options) {
   add_proof(report, trials::prove_points(*trial->workpiece, trial->measurement));
   if (job->report) {
     run.begin("mesh the surface");
-    auto mesh = finished_surface(*job, stock::WorkpieceAt(*trial->workpiece), {});
-    if (!mesh) return refuse(mesh.error(), options);
-    report.surface = picture_of(*mesh, job->piece.plan);
-    const double finished = stock::measure(*mesh).volume;
+    const auto surface = finished_surface(*job, stock::WorkpieceAt(*trial->workpiece), {});
+    if (!surface) return refuse(surface.error(), options);
+    report.surface = picture_of(surface->mesh, job->piece.plan);
+    const double finished = stock::measure(surface->mesh).volume;
     const double blank = trial->workpiece->blank().volume();
     report.volumes = {blank, finished, removed_volume(blank, finished)};
   }

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/job/job_report.hpp"
 #include "core/counted.hpp"
 #include "core/program_version.hpp"
 #include "report/exchange/json_report.hpp"
@@ -91,6 +90,10 @@ void add_surface(Json& json, const CutResult& result) {
   const CutSurface& surface = *result.surface;
   json["engine"] = surface.faceted_within ? "polyhedral" : "ray";
   if (surface.faceted_within) json["facet_bound_um"] = surface.faceted_within->value * kUmPerMm;
+  if (surface.refinement) {
+    json["worst_chord_um"] = surface.refinement->worst_chord * kUmPerMm;
+    json["unresolved_edges"] = surface.refinement->unresolved_edges;
+  }
   json["vertices"] = surface.vertices;
   json["triangles"] = surface.triangles;
   json["closed"] = surface.measure.is_closed;
@@ -146,6 +149,14 @@ std::string surface_text(const CutResult& result) {
   if (s.faceted_within) {
     text += fmt::format("facets within {:g} um of the exact surface\n",
                         s.faceted_within->value * kUmPerMm);
+  }
+  if (s.refinement) {
+    text += fmt::format("triangles leave the surface by at most {:.3f} um",
+                        s.refinement->worst_chord * kUmPerMm);
+    if (const std::size_t left = s.refinement->unresolved_edges; left > 0) {
+      text += fmt::format("; beside {} no surface was found", counted(left, "edge"));
+    }
+    text += '\n';
   }
   return text + worst_text("worst gouge", s.deviations.gouge, result.limits.gouge) +
          worst_text("worst excess", s.deviations.excess, result.limits.excess);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/job/job.hpp"
+#include "app/job/job_report.hpp"
 #include "report/run_report.hpp"
 #include "stock/collision/collision.hpp"
 #include "stock/mesh/deviation.hpp"
@@ -26,6 +27,7 @@ struct CutSurface {
   stock::WorstDeviations deviations{};
   double lowest = 0.0, highest = 0.0;  // mm, of all deviations; 0 without any
   std::optional<Mm> faceted_within{};  // of the polyhedral engine: its bound
+  std::optional<Refinement> refinement{};
 };
 
 struct Snapshot {

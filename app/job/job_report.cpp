@@ -260,8 +260,8 @@ Result<Mm> surface_pitch(const Job& job, const stock::BoundingBox& box, double a
   return Mm{pitch};
 }
 
-Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::WorkpieceAt& part,
-                                            const SurfaceRequest& request) {
+Result<FinishedSurface> finished_surface(const Job& job, const stock::WorkpieceAt& part,
+                                         const SurfaceRequest& request) {
   const stock::BoundingBox box = part.workpiece().blank().bounds();
   const auto pitch = surface_pitch(job, box, request.pitch);
   if (!pitch) return pitch.error();
@@ -270,16 +270,17 @@ Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::Workpie
   return finished_surface(job, part, *std::move(mesh), request.chord);
 }
 
-Result<stock::SurfaceMesh> finished_surface(const Job& job, const stock::WorkpieceAt& part,
-                                            stock::SurfaceMesh extracted, double chord) {
-  stock::SurfaceMesh mesh = std::move(extracted);
+Result<FinishedSurface> finished_surface(const Job& job, const stock::WorkpieceAt& part,
+                                         stock::SurfaceMesh extracted, double chord) {
+  FinishedSurface surface{std::move(extracted), {}};
   if (chord > 0.0) {
-    auto refined = stock::refine_surface(part, std::move(mesh), {.chord = Mm{chord}});
+    auto refined = stock::refine_surface(part, std::move(surface.mesh), {.chord = Mm{chord}});
     if (!refined) return refined.error();
-    mesh = std::move(refined->mesh);
+    surface = {std::move(refined->mesh),
+               Refinement{refined->worst_chord, refined->unresolved_edges}};
   }
-  judge_surface(job, mesh);
-  return mesh;
+  judge_surface(job, surface.mesh);
+  return surface;
 }
 
 void judge_surface(const Job& job, stock::SurfaceMesh& mesh) {

@@ -30,15 +30,23 @@ struct SurfaceRequest {
 };
 // Of the sampling grid: what is asked for, the job's, or a hundred and twentieth of the box.
 [[nodiscard]] Result<Mm> surface_pitch(const Job& job, const stock::BoundingBox& box, double asked);
-// The surface at the part's program state with the deviation of each vertex.
-[[nodiscard]] Result<stock::SurfaceMesh> finished_surface(const Job& job,
-                                                          const stock::WorkpieceAt& part,
-                                                          const SurfaceRequest& request);
+// How near a refined surface is to the exact one.
+struct Refinement {
+  double worst_chord = 0.0;          // mm; the largest distance found
+  std::size_t unresolved_edges = 0;  // beside which the exact surface was not found
+};
+struct FinishedSurface {
+  stock::SurfaceMesh mesh{};               // with the deviation of each vertex
+  std::optional<Refinement> refinement{};  // where it was refined
+};
+// The surface at the part's program state.
+[[nodiscard]] Result<FinishedSurface> finished_surface(const Job& job,
+                                                       const stock::WorkpieceAt& part,
+                                                       const SurfaceRequest& request);
 // The same of a surface that was extracted at that state.
-[[nodiscard]] Result<stock::SurfaceMesh> finished_surface(const Job& job,
-                                                          const stock::WorkpieceAt& part,
-                                                          stock::SurfaceMesh extracted,
-                                                          double chord);
+[[nodiscard]] Result<FinishedSurface> finished_surface(const Job& job,
+                                                       const stock::WorkpieceAt& part,
+                                                       stock::SurfaceMesh extracted, double chord);
 // Fills the deviations of a mesh: from the job's nominal mesh if it has one, or else from the
 // plan's nominal surfaces.
 void judge_surface(const Job& job, stock::SurfaceMesh& mesh);

@@ -145,15 +145,17 @@ RESULT = document("result", "Result of a run or measurement", "result.json, and 
     "notes!": texts("Further remarks"),
 })
 
-_LINE = {"line!": count("Of the program"), "file": text("Subprogram that it is in")}
+_LINE = {"line!": count("Of the program"), "program_file": text("Subprogram that it is in")}
 _STATE = {**_LINE, "block!": or_null(count("Path segment")), "time_s!": number("Into the program")}
-_WORST = or_null(table("", {"deviation_um!": number(""), "point!": PLACE, "line": count(""), "file": text(""),
-                            "block!": or_null(count(""))}))
+_WORST = or_null(table("", {"deviation_um!": number(""), "point!": PLACE, "line": count(""),
+                            "program_file": text(""), "block!": or_null(count(""))}))
 _SNAPSHOTS = list_of(table("", {"file!": text("Mesh"), **_STATE, "volume_mm3!": number("")}), "Meshes along the way")
 
 CUT = document("cut", "Cut part", "frustum cut --json", {
     "engine": choice(["ray", "polyhedral"], "What made the mesh"),
     "facet_bound_um": number("Of the polyhedral engine"),
+    "worst_chord_um": number("Of --chord: the largest distance found at an edge or a triangle, before --decimate"),
+    "unresolved_edges": count("Of --chord: edges beside which the surface was not found, left as they were"),
     "vertices": count("Of the mesh"), "triangles": count("Of the mesh"),
     "closed": flag("The mesh is"), "manifold": flag("The mesh is"),
     "volume_mm3": number("Of the finished part"), "blank_volume_mm3": number(""), "removed_volume_mm3": number(""),
@@ -168,16 +170,16 @@ CUT = document("cut", "Cut part", "frustum cut --json", {
         "depth_mm!": known(""), "point!": PLACE, "last_line!": count(""), "other_body": text("")}),
     "machine_collisions!": _BODIES,
     "made_by": table("Which block made a point", {
-        "point!": PLACE, "on_surface!": flag(""), "line": count(""), "file": text(""),
+        "point!": PLACE, "on_surface!": flag(""), "line": count(""), "program_file": text(""),
         "block": or_null(count("")), "normal": PLACE}),
     "snapshots": _SNAPSHOTS,
     "removal": table("Removed volume block by block", {"file!": text("CSV"), "blocks!": count(""),
                                                        "volume_mm3!": number("")}),
     "passes!": flag("Nothing collides, and limits are kept"),
-})
+}, "1.1")
 
 SNAPSHOTS = document("snapshots", "Index of snapshots", "Beside the meshes of frustum cut --snapshots", {
-    "snapshots!": _SNAPSHOTS})
+    "snapshots!": _SNAPSHOTS}, "1.1")
 
 PROGRAM = document("program", "Written test piece", "frustum program --json", {"files!": texts("Written")})
 

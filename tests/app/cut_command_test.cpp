@@ -299,6 +299,18 @@ TEST_F(CutCommandSystem, WithoutBodiesItSaysThatNoneWereLookedFor_Fault2_25) {
   EXPECT_NE(told.out.find("Machine collisions were not looked for"), std::string::npos) << told.out;
 }
 
+TEST_F(CutCommandSystem, SaysHowNearARefinedSurfaceIs) {
+  write_plate("G0 Z10\nG0 X0 Y20\nG1 Z-4\nG0 Z10");
+  EXPECT_FALSE(cut("--mesh a.ply --pitch 2").contains("worst_chord_um"));
+  const json doc = cut("--mesh a.ply --pitch 2 --chord 0.01");
+  EXPECT_GT(doc["worst_chord_um"].get<double>(), 1.0);
+  EXPECT_LE(doc["worst_chord_um"].get<double>(), 10.0);
+  EXPECT_EQ(doc["unresolved_edges"], 0);
+  const std::string text = run("cut plate.toml --mesh a.ply --pitch 2 --chord 0.01").out;
+  EXPECT_NE(text.find("triangles leave the surface by at most"), std::string::npos) << text;
+  EXPECT_EQ(text.find("no surface was found"), std::string::npos) << text;
+}
+
 TEST_F(CutCommandSystem, AgreesWithThePolyhedralEngineOrSaysThatItIsMissing) {
   write_plate();
   const Outcome outcome = run("cut plate.toml --json --engine polyhedral --facets 32 --mesh p.stl");
