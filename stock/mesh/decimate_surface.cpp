@@ -2,15 +2,18 @@
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <utility>
 #include <vector>
 
+#include "stock/mesh/near_numbers.hpp"
 #include "stock/mesh/near_triangle.hpp"
 #include "stock/mesh/quadric.hpp"
 #include "stock/mesh/surface_blocks.hpp"
@@ -39,16 +42,18 @@ constexpr int kMostBlockRounds = 24;
 
 class Decimation {
  public:
-  Decimation(const SurfaceMesh& mesh, TriangleLinks links, double tolerance)
+  Decimation(const SurfaceMesh& mesh, NearNumbers numbers, TriangleLinks links, double tolerance)
       : mesh_(mesh),
-        given_(links),
+        numbers_(std::move(numbers)),
         links_(std::move(links)),
         tolerance_(tolerance),
-        quadrics_(mesh.vertices.size()),
+        quadrics_(std::make_unique_for_overwrite<Quadric[]>(mesh.vertices.size())),
+        own_(mesh.vertices.size(), 0.0),
         bound_(mesh.triangles.size(), 0.0),
         held_(mesh.triangles.size(), kNone),
         held_next_(mesh.vertices.size(), kNone),
         block_(mesh.vertices.size(), kNone),
+        inner_(mesh.vertices.size(), 0),
         open_(mesh.vertices.size(), 1) {}
 
   void run();
@@ -65,6 +70,11 @@ class Decimation {
       return cost != other.cost ? cost > other.cost : vertex > other.vertex;
     }
   };
+  // What may be taken away.
+  struct Leaver {
+    Quadric quadric;
+    Vec3 at;
+  };
   struct Target {
     double cost;
     std::size_t spoke;
@@ -72,7 +82,8 @@ class Decimation {
   // A vertex that a fan stands for, and the place of a triangle that is near it.
   struct Held {
     std::uint32_t vertex;
-    std::uint32_t place;
+    std::uint32_t triangle;  // of the fan
+    std::uint32_t place;     // of those that stay
     Vec3 seen;
   };
   // What a collapse leaves of a fan: the triangles that stay, by their place in the fan.
@@ -88,9 +99,9 @@ class Decimation {
     std::vector<Held> points{};
   };
 
-  [[nodiscard]] const Vec3& point(std::uint32_t v) const { return mesh_.vertices[v]; }
+  [[nodiscard]] const Vec3& point(std::uint32_t v) const { return numbers_.points[v]; }
   [[nodiscard]] bool is_feature(std::uint32_t v) const {
-    return !mesh_.kinds.empty() && mesh_.kinds[v] == VertexKind::feature;
+    return !mesh_.kinds.empty() && mesh_.kinds[numbers_.given[v]] == VertexKind::feature;
   }
   [[nodiscard]] Vec3 area_of(std::uint32_t t) const {
     const auto& [a, b, c] = links_.triangles[t];
@@ -98,8 +109,8 @@ class Decimation {
   }
   void make_quadrics();
   [[nodiscard]] std::size_t work(std::span<const std::uint32_t> block, std::uint32_t number);
-  [[nodiscard]] bool is_inner(std::uint32_t vertex, std::uint32_t number) const;
-  [[nodiscard]] double cost(std::uint32_t from, std::uint32_t to) const;
+  void find_inner(std::span<const std::uint32_t> block, std::uint32_t number);
+  [[nodiscard]] double cost(const Leaver& from, std::uint32_t to) const;
   [[nodiscard]] double least_cost(std::uint32_t vertex) const;
   [[nodiscard]] bool may_take(const VertexFan& fan, std::size_t spoke) const;
   [[nodiscard]] bool keeps_shape(const VertexFan& fan, std::size_t target) const;
@@ -111,49 +122,60 @@ class Decimation {
   void collapse(const VertexFan& fan, const Rest& rest);
 
   const SurfaceMesh& mesh_;
-  const TriangleLinks given_;
+  const NearNumbers numbers_;
+  TriangleLinks given_{};
   TriangleLinks links_;
   double tolerance_;
-  std::vector<Quadric> quadrics_;
+  std::unique_ptr<Quadric[]> quadrics_;  // by vertex; filled on all cores
+  std::vector<double> own_;              // by vertex: its quadric where it is
   // By triangle: it and what it stands for of the given mesh are nowhere farther apart.
   std::vector<double> bound_;
   std::vector<std::uint32_t> held_;  // by triangle: the first vertex taken away that is near it
   std::vector<std::uint32_t> held_next_;  // by vertex taken away: the next on the same triangle
   std::vector<std::uint32_t> block_;      // by vertex, in this round
+  std::vector<std::uint8_t> inner_;       // by vertex: so are all around it
   // By vertex. 0: stays, unless what is around it changes; 1: has its turn; 2: that is out of date.
   std::vector<std::uint8_t> open_;
 };
 
 void Decimation::make_quadrics() {
-  tbb::parallel_for(std::size_t{0}, mesh_.vertices.size(), [&](std::size_t v) {
-    Quadric& sum = quadrics_[v];
-    links_.for_each_leaving(static_cast<std::uint32_t>(v), [&](std::uint32_t half) {
-      const Vec3 area = area_of(half / 3);
-      const double length = area.norm();
-      if (!(length > 0.0)) return;
-      const Vec3 normal = area / length;
-      sum.add_plane(normal, -normal.dot(mesh_.vertices[v]), 0.5 * length);
-    });
-  });
+  tbb::parallel_for(std::uint32_t{0}, static_cast<std::uint32_t>(own_.size()),
+                    [&](std::uint32_t v) {
+                      Quadric sum{};
+                      links_.for_each_leaving(v, [&](std::uint32_t half) {
+                        const Vec3 area = area_of(half / 3);
+                        const double length = area.norm();
+                        if (!(length > 0.0)) return;
+                        const Vec3 normal = area / length;
+                        sum.add_plane(normal, -normal.dot(point(v)), 0.5 * length);
+                      });
+                      quadrics_[v] = sum;
+                      own_[v] = sum.at(point(v));
+                    });
 }
 
-bool Decimation::is_inner(std::uint32_t vertex, std::uint32_t number) const {
-  bool inner = true;
-  links_.for_each_leaving(
-      vertex, [&](std::uint32_t half) { inner = inner && block_[links_.to(half)] == number; });
-  return inner;
+// Collapses within a block leave that as it is: a vertex gets no neighbours but those in its block,
+// and keeps all others.
+void Decimation::find_inner(std::span<const std::uint32_t> block, std::uint32_t number) {
+  for (const std::uint32_t v : block) {
+    bool inner = true;
+    links_.for_each_leaving(
+        v, [&](std::uint32_t half) { inner = inner && block_[links_.to(half)] == number; });
+    inner_[v] = inner ? 1 : 0;
+  }
 }
 
-double Decimation::cost(std::uint32_t from, std::uint32_t to) const {
+inline double Decimation::cost(const Leaver& from, std::uint32_t to) const {
   const double share = kShortFirst * tolerance_;
-  return quadrics_[from].at(point(to)) + quadrics_[to].at(point(to)) +
-         share * share * (point(to) - point(from)).squaredNorm();
+  const Vec3& there = point(to);
+  return from.quadric.at(there) + own_[to] + share * share * (there - from.at).squaredNorm();
 }
 
 double Decimation::least_cost(std::uint32_t vertex) const {
+  const Leaver from{quadrics_[vertex], point(vertex)};
   double least = std::numeric_limits<double>::infinity();
   links_.for_each_leaving(
-      vertex, [&](std::uint32_t half) { least = std::min(least, cost(vertex, links_.to(half))); });
+      vertex, [&](std::uint32_t half) { least = std::min(least, cost(from, links_.to(half))); });
   return least;
 }
 
@@ -200,7 +222,7 @@ bool Decimation::is_held(const VertexFan& fan, Rest& rest) const {
   for (std::size_t k = 0; k < rest.points.size(); ++k) {
     Held& held = rest.points[k];
     if (rest.is_proven) {
-      held.place = fan.sector(rest.target, held.seen);
+      held.place = fan.sector(rest.target, held.seen, held.triangle);
       const Vec3& from = fan.seen[rest.target];
       const Vec3& slope = rest.slopes[held.place];
       const double height = from.z() + slope.x() * (held.seen.x() - from.x()) +
@@ -277,13 +299,12 @@ void Decimation::gather(const VertexFan& fan, Rest& rest) const {
   rest.points.clear();
   rest.is_gathered = true;
   const Vec3& centre = point(fan.vertex);
-  const auto add = [&](std::uint32_t vertex) {
-    const Vec3 arm = point(vertex) - centre;
-    rest.points.push_back({vertex, 0, {arm.dot(fan.x), arm.dot(fan.y), arm.dot(fan.up)}});
-  };
-  add(fan.vertex);
-  for (std::size_t i = 0; i < fan.size; ++i) {
-    for (std::uint32_t v = held_[fan.half[i] / 3]; v != kNone; v = held_next_[v]) add(v);
+  rest.points.push_back({fan.vertex, 0, 0, Vec3::Zero()});
+  for (std::uint32_t i = 0; i < fan.size; ++i) {
+    for (std::uint32_t v = held_[fan.half[i] / 3]; v != kNone; v = held_next_[v]) {
+      const Vec3 arm = point(v) - centre;
+      rest.points.push_back({v, i, 0, {arm.dot(fan.x), arm.dot(fan.y), arm.dot(fan.up)}});
+    }
   }
 }
 
@@ -303,7 +324,7 @@ bool Decimation::is_legal(const VertexFan& fan, std::size_t target, Rest& rest) 
   }
   if (!rest.is_gathered) gather(fan, rest);
   if (rest.bound <= kVertexShare * tolerance_) {
-    for (Held& held : rest.points) held.place = fan.sector(target, held.seen);
+    for (Held& held : rest.points) held.place = fan.sector(target, held.seen, held.triangle);
     return true;
   }
   rest.triangles.clear();
@@ -329,13 +350,15 @@ void Decimation::collapse(const VertexFan& fan, const Rest& rest) {
   for (const std::uint32_t i : rest.places) bound_[fan.half[i] / 3] = rest.bound;
   links_.collapse(fan.half[rest.target]);
   quadrics_[to].add(quadrics_[fan.vertex]);
+  own_[to] = quadrics_[to].at(point(to));
 }
 
 // Collapses within a block, cheapest first; how many.
 std::size_t Decimation::work(std::span<const std::uint32_t> block, std::uint32_t number) {
+  find_inner(block, number);
   std::vector<Turn> turns;
   for (const std::uint32_t v : block) {
-    if (open_[v] != 0 && is_inner(v, number)) turns.push_back({least_cost(v), v});
+    if (open_[v] != 0 && inner_[v] != 0) turns.push_back({least_cost(v), v});
   }
   std::make_heap(turns.begin(), turns.end());
   const auto most = static_cast<std::size_t>(
@@ -359,13 +382,12 @@ std::size_t Decimation::work(std::span<const std::uint32_t> block, std::uint32_t
       }
     }
     open_[turn.vertex] = 0;
-    if (!fan.look(mesh_.vertices, links_, turn.vertex)) continue;
+    if (!fan.look(numbers_.points, links_, turn.vertex)) continue;
     double bound = 0.0;
     for (std::size_t i = 0; i < fan.size; ++i) bound = std::max(bound, bound_[fan.half[i] / 3]);
     rest.given_bound = bound;
-    for (std::size_t i = 0; i < fan.size; ++i) {
-      targets[i] = {cost(fan.vertex, fan.spoke[i]), i};
-    }
+    const Leaver from{quadrics_[fan.vertex], point(fan.vertex)};
+    for (std::size_t i = 0; i < fan.size; ++i) targets[i] = {cost(from, fan.spoke[i]), i};
     std::sort(targets.begin(), targets.begin() + static_cast<std::ptrdiff_t>(fan.size),
               [](const Target& a, const Target& b) {
                 return a.cost != b.cost ? a.cost < b.cost : a.spoke < b.spoke;
@@ -379,7 +401,7 @@ std::size_t Decimation::work(std::span<const std::uint32_t> block, std::uint32_t
         const std::uint32_t v = fan.spoke[i];
         const bool waits = open_[v] != 0;
         open_[v] = 2;
-        if (waits || !is_inner(v, number)) continue;
+        if (waits || inner_[v] == 0) continue;
         turns.push_back({least_cost(v), v});
         std::push_heap(turns.begin(), turns.end());
         open_[v] = 1;
@@ -391,14 +413,14 @@ std::size_t Decimation::work(std::span<const std::uint32_t> block, std::uint32_t
 }
 
 void Decimation::run() {
-  make_quadrics();
+  tbb::parallel_invoke([&] { given_ = links_; }, [&] { make_quadrics(); });
   std::vector<std::uint32_t> order;
-  for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
+  for (std::uint32_t v = 0; v < numbers_.points.size(); ++v) {
     if (links_.leaving[v] != kNone) order.push_back(v);
   }
   int idle = 0;
   for (int round = 0; round < kMostBlockRounds && idle < 2; ++round) {
-    const std::vector<SurfaceBlock> blocks = surface_blocks(mesh_.vertices, order, round);
+    const std::vector<SurfaceBlock> blocks = surface_blocks(numbers_.points, order, round);
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
       for (std::size_t k = blocks[b].first; k < blocks[b].last; ++k) {
         block_[order[k]] = static_cast<std::uint32_t>(b);
@@ -422,10 +444,10 @@ void Decimation::run() {
 
 SurfaceMesh Decimation::left() const {
   SurfaceMesh left;
-  std::vector<std::uint32_t> number(mesh_.vertices.size(), kNone);
+  std::vector<std::uint32_t> number(mesh_.vertices.size(), kNone);  // by what it was here
   for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
-    if (links_.leaving[v] == kNone) continue;
-    number[v] = static_cast<std::uint32_t>(left.vertices.size());
+    if (links_.leaving[numbers_.near[v]] == kNone) continue;
+    number[numbers_.near[v]] = static_cast<std::uint32_t>(left.vertices.size());
     left.vertices.push_back(mesh_.vertices[v]);
     if (!mesh_.normals.empty()) left.normals.push_back(mesh_.normals[v]);
     if (!mesh_.kinds.empty()) left.kinds.push_back(mesh_.kinds[v]);
@@ -447,7 +469,8 @@ Result<SurfaceMesh> decimate_surface(const SurfaceMesh& mesh, Mm tolerance) {
                  fmt::format("the decimation tolerance is {} mm", tolerance.value),
                  "it must be a finite number above 0");
   }
-  auto links = linked(mesh.triangles, mesh.vertices.size());
+  NearNumbers numbers = near_numbers(mesh);
+  auto links = linked(std::move(numbers.triangles), mesh.vertices.size());
   if (!links) {
     const bool is_closed = measure(mesh).is_closed;
     return error(
@@ -455,7 +478,7 @@ Result<SurfaceMesh> decimate_surface(const SurfaceMesh& mesh, Mm tolerance) {
         fmt::format("the mesh to be decimated is {}", is_closed ? "not manifold" : "not closed"),
         "only closed surfaces without self-contact are decimated");
   }
-  Decimation decimation(mesh, *std::move(links), tolerance.value);
+  Decimation decimation(mesh, std::move(numbers), *std::move(links), tolerance.value);
   decimation.run();
   return decimation.left();
 }

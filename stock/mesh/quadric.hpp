@@ -12,7 +12,7 @@
 namespace frustum::stock {
 
 struct Quadric {
-  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0, x = 0, y = 0, z = 0, one = 0;
+  double xx, xy, xz, yy, yz, zz, x, y, z, one;  // Quadric{} is of no planes
 
   void add_plane(const Vec3& n, double d, double weight) {
     const Vec3 w = weight * n;

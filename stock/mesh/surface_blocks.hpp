@@ -1,7 +1,8 @@
 // Neighbouring vertices in blocks of about the same number, for work on many of them at once.
 //
-// Model    : halves of halves, across the longest of three directions; those of each round are
-//            turned, so that blocks of one round have their borders within those of the next
+// Model    : halves of halves, across the longest of three directions, by the middle of some of the
+//            vertices; those of each round are turned, so that blocks of one round have their
+//            borders within those of the next
 // Units    : mm
 // Errors   : none
 // Threads  : runs on oneTBB; the same blocks for any number of threads

@@ -1,5 +1,16 @@
 #include "stock/mesh/triangle_links.hpp"
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <atomic>
+#include <boost/container/small_vector.hpp>
+#include <functional>
+#include <memory>
+#include <numeric>
+#include <span>
 #include <utility>
 
 namespace frustum::stock {
@@ -11,13 +22,15 @@ bool TriangleLinks::may_collapse(std::uint32_t half) const {
   const std::uint32_t right = from(before(across[half]));
   if (left == right) return false;
   // What is next to both is next to the edge.
+  boost::container::small_vector<std::uint32_t, 16> ring;
+  for_each_leaving(goes, [&](std::uint32_t mine) { ring.push_back(to(mine)); });
   bool alone = true;
-  for_each_leaving(goes, [&](std::uint32_t mine) {
-    const std::uint32_t neighbour = to(mine);
-    if (neighbour == stays || neighbour == left || neighbour == right || !alone) return;
-    for_each_leaving(stays, [&](std::uint32_t other) { alone = alone && to(other) != neighbour; });
+  for_each_leaving(stays, [&](std::uint32_t other) {
+    const std::uint32_t neighbour = to(other);
+    if (neighbour == left || neighbour == right) return;
+    for (const std::uint32_t near : ring) alone = alone && near != neighbour;
   });
-  return alone && valence(left) > 3 && valence(right) > 3;
+  return alone && !has_three(left) && !has_three(right);
 }
 
 void TriangleLinks::collapse(std::uint32_t half) {
@@ -75,62 +88,61 @@ std::optional<TriangleLinks> linked(std::vector<std::array<std::uint32_t, 3>> tr
                                     std::size_t vertex_count) {
   TriangleLinks links;
   links.triangles = std::move(triangles);
-  const std::size_t halves = 3 * links.triangles.size();
-  links.across.assign(halves, TriangleLinks::kGone);
+  const auto count = static_cast<std::uint32_t>(links.triangles.size());
+  links.across.resize(3 * links.triangles.size());
   links.leaving.assign(vertex_count, TriangleLinks::kGone);
-  // Half-edges by the lower of their ends, each with its higher one.
-  std::vector<std::uint32_t> first(vertex_count + 1, 0);
-  const auto ends = [&](std::uint32_t half) {
-    const std::uint32_t a = links.from(half);
-    const std::uint32_t b = links.to(half);
-    return a < b ? std::pair(a, b) : std::pair(b, a);
+  // Half-edges by the vertex that they leave, those of one in any order.
+  struct Leaving {
+    std::uint32_t half, end;
   };
-  const auto count = static_cast<std::uint32_t>(halves);
-  for (std::uint32_t half = 0; half < count; ++half) {
-    const auto [low, high] = ends(half);
-    if (low == high) return std::nullopt;
-    ++first[low + 1];
-    links.leaving[links.from(half)] = half;
-  }
-  for (std::size_t v = 0; v < vertex_count; ++v) first[v + 1] += first[v];
-  std::vector<std::uint32_t> open(halves);  // by lower end: those that wait for their other one
+  const auto by_vertex = std::make_unique_for_overwrite<Leaving[]>(links.across.size());
+  std::vector<std::uint32_t> first(vertex_count + 1, 0);
+  const auto counted = [](std::uint32_t& number) {
+    return std::atomic_ref(number).fetch_add(1, std::memory_order_relaxed);
+  };
+  tbb::parallel_for(std::uint32_t{0}, count, [&](std::uint32_t t) {
+    for (const std::uint32_t v : links.triangles[t]) counted(first[v + 1]);
+  });
+  std::partial_sum(first.begin(), first.end(), first.begin());
   std::vector<std::uint32_t> filled(first.begin(), first.end() - 1);
-  for (std::uint32_t half = 0; half < count; ++half) {
-    const auto [low, high] = ends(half);
-    const bool upwards = links.from(half) == low;
-    bool met = false;
-    for (std::uint32_t at = first[low]; at < filled[low] && !met; ++at) {
-      const std::uint32_t other = open[at];
-      if (ends(other).second != high || (links.from(other) == low) == upwards ||
-          links.across[other] != TriangleLinks::kGone) {
-        continue;
+  tbb::parallel_for(std::uint32_t{0}, count, [&](std::uint32_t t) {
+    const auto& [a, b, c] = links.triangles[t];
+    by_vertex[counted(filled[a])] = {3 * t, b};
+    by_vertex[counted(filled[b])] = {3 * t + 1, c};
+    by_vertex[counted(filled[c])] = {3 * t + 2, a};
+  });
+  const auto leaving = [&](std::uint32_t v) {
+    return std::span<const Leaving>(by_vertex.get() + first[v], first[v + 1] - first[v]);
+  };
+  // Every edge once there and once back; around every vertex one fan.
+  const auto pair_at = [&](std::uint32_t v) {
+    for (const auto& [half, end] : leaving(v)) {
+      std::uint32_t back = TriangleLinks::kGone;
+      for (const Leaving& other : leaving(end)) {
+        if (other.end != v) continue;
+        if (back != TriangleLinks::kGone) return false;
+        back = other.half;
       }
-      links.across[half] = other;
-      links.across[other] = half;
-      open[at] = open[--filled[low]];
-      met = true;
+      if (end == v || back == TriangleLinks::kGone) return false;
+      links.across[half] = back;
+      std::uint32_t& last = links.leaving[v];
+      last = last == TriangleLinks::kGone ? half : std::max(last, half);
     }
-    if (!met) open[filled[low]++] = half;
-  }
-  // An edge of four triangles shows as two fans at its ends, unless it is paired crosswise: then
-  // some vertex sees an edge twice.
-  std::vector<std::uint32_t> seen(vertex_count, 0);
-  for (std::uint32_t half = 0; half < count; ++half) {
-    if (links.across[half] == TriangleLinks::kGone) return std::nullopt;
-    ++seen[links.from(half)];
-  }
-  std::vector<std::uint32_t> marked(vertex_count, TriangleLinks::kGone);
-  for (std::uint32_t v = 0; v < vertex_count; ++v) {
-    std::uint32_t fan = 0;
-    bool twice = false;
-    links.for_each_leaving(v, [&](std::uint32_t half) {
-      ++fan;
-      const std::uint32_t end = links.to(half);
-      twice = twice || marked[end] == v;
-      marked[end] = v;
-    });
-    if (fan != seen[v] || twice) return std::nullopt;
-  }
+    return true;
+  };
+  const auto is_one_fan_at = [&](std::uint32_t v) { return links.valence(v) == leaving(v).size(); };
+  const auto holds_at_all = [&](const auto& holds_at) {
+    return tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, vertex_count), true,
+        [&](const tbb::blocked_range<std::size_t>& some, bool all) {
+          for (std::size_t v = some.begin(); v < some.end() && all; ++v) {
+            all = holds_at(static_cast<std::uint32_t>(v));
+          }
+          return all;
+        },
+        std::logical_and<>());
+  };
+  if (!holds_at_all(pair_at) || !holds_at_all(is_one_fan_at)) return std::nullopt;
   return links;
 }
 

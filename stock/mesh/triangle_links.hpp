@@ -58,6 +58,11 @@ struct TriangleLinks {
     return count;
   }
 
+  [[nodiscard]] bool has_three(std::uint32_t vertex) const {
+    const std::uint32_t first = leaving[vertex];
+    return turned(turned(turned(first))) == first;
+  }
+
   // The surface stays a closed 2-manifold.
   [[nodiscard]] bool may_collapse(std::uint32_t half) const;
   // Precondition: may_collapse().

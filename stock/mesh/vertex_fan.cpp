@@ -85,14 +85,15 @@ double VertexFan::departure(std::size_t target) const {
   return covered ? most : kInfinite;
 }
 
-// Spokes of the new fan divide the polygon.
-std::uint32_t VertexFan::sector(std::size_t target, const Vec3& at) const {
+// Spokes of the new fan divide the polygon: mostly it is where the old triangle was.
+std::uint32_t VertexFan::sector(std::size_t target, const Vec3& at, std::size_t from) const {
   const Vec3 arm = at - seen[target];
-  std::uint32_t place = 0;
-  for (std::size_t i = after(after(target)); after(i) != target; i = after(i), ++place) {
-    if (cross2(seen[i] - seen[target], arm) <= 0.0) return place;
-  }
-  return place;
+  const auto is_before = [&](std::size_t i) { return cross2(seen[i] - seen[target], arm) <= 0.0; };
+  const std::size_t first = after(target), last = before(before(target));
+  std::size_t i = from == target ? first : from == before(target) ? last : from;
+  while (i != last && !is_before(after(i))) i = after(i);
+  while (i != first && is_before(i)) i = before(i);
+  return static_cast<std::uint32_t>(i >= first ? i - first : i + size - first);
 }
 
 }  // namespace frustum::stock

@@ -31,6 +31,7 @@ struct VertexFan {
   bool is_graph = false;  // no triangle stands on its edge or is turned over, seen so
 
   [[nodiscard]] std::size_t after(std::size_t i) const { return i + 1 == size ? 0 : i + 1; }
+  [[nodiscard]] std::size_t before(std::size_t i) const { return (i == 0 ? size : i) - 1; }
 
   // False if there are too many spokes.
   [[nodiscard]] bool look(std::span<const Vec3> vertices, const TriangleLinks& links,
@@ -38,8 +39,9 @@ struct VertexFan {
   // When the vertex goes to the end of spoke `target`: seen from above, both fans are functions
   // over one polygon; the most that they differ by in height, or infinity where one is none.
   [[nodiscard]] double departure(std::size_t target) const;
-  // Then, the triangle that is over `at`, counted from the one after the target.
-  [[nodiscard]] std::uint32_t sector(std::size_t target, const Vec3& at) const;
+  // Then, the triangle that is over `at`, counted from the one after the target; it is looked for
+  // from where triangle `from` was.
+  [[nodiscard]] std::uint32_t sector(std::size_t target, const Vec3& at, std::size_t from) const;
 };
 
 }  // namespace frustum::stock
