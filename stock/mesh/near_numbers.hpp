@@ -1,5 +1,5 @@
-// A mesh with other numbers: what is near by has near numbers, so that a part of it is in one piece of
-// memory.
+// A mesh with other numbers: what is near by has near numbers, so that a part of it is in one piece
+// of memory.
 //
 // Units    : mm
 // Shape    : triangles with their lowest vertex first, and in the order of that
