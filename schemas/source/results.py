@@ -148,7 +148,7 @@ RESULT = document("result", "Result of a run or measurement", "result.json, and 
 _LINE = {"line!": count("Of the program"), "program_file": text("Subprogram that it is in")}
 _STATE = {**_LINE, "block!": or_null(count("Path segment")), "time_s!": number("Into the program")}
 _WORST = or_null(table("", {"deviation_um!": number(""), "point!": PLACE, "line": count(""),
-                            "program_file": text(""), "block!": or_null(count(""))}))
+                            "program_file": text("Subprogram that it is in"), "block!": or_null(count(""))}))
 _SNAPSHOTS = list_of(table("", {"file!": text("Mesh"), **_STATE, "volume_mm3!": number("")}), "Meshes along the way")
 
 CUT = document("cut", "Cut part", "frustum cut --json", {
@@ -170,7 +170,7 @@ CUT = document("cut", "Cut part", "frustum cut --json", {
         "depth_mm!": known(""), "point!": PLACE, "last_line!": count(""), "other_body": text("")}),
     "machine_collisions!": _BODIES,
     "made_by": table("Which block made a point", {
-        "point!": PLACE, "on_surface!": flag(""), "line": count(""), "program_file": text(""),
+        "point!": PLACE, "on_surface!": flag(""), "line": count(""), "program_file": text("Subprogram that it is in"),
         "block": or_null(count("")), "normal": PLACE}),
     "snapshots": _SNAPSHOTS,
     "removal": table("Removed volume block by block", {"file!": text("CSV"), "blocks!": count(""),
