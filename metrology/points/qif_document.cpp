@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "metrology/points/line_words.hpp"
+#include "metrology/points/qif_form.hpp"
 
 namespace frustum::metrology {
 namespace {
@@ -34,6 +35,17 @@ constexpr std::array kUnits{NamedUnit{"mm", 1.0},         NamedUnit{"millimeter"
                             NamedUnit{"in", 25.4},        NamedUnit{"m", 1000.0},
                             NamedUnit{"meter", 1000.0},   NamedUnit{"metre", 1000.0}};
 
+// Those that are found by their bytes, and what is in the first 128 characters alike.
+bool is_read(std::string_view encoding) {
+  std::string name(encoding);
+  std::ranges::transform(name, name.begin(), [](char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  });
+  return name.empty() || name.starts_with("UTF-") || name.starts_with("UCS-") ||
+         name == "US-ASCII" || name == "ASCII" || name == "ISO-8859-1" || name == "LATIN1" ||
+         name.starts_with("ISO-10646-UCS-");
+}
+
 std::string element_text(xml_node element) {
   const auto id = element.attribute("id");
   return id ? fmt::format("<{} id=\"{}\">", element.name(), id.value())
@@ -44,24 +56,40 @@ std::string element_text(xml_node element) {
 
 Result<QifDocument> QifDocument::parse(std::string_view bytes) {
   QifDocument document;
-  const auto parsed = document.document_->load_buffer(bytes.data(), bytes.size());
+  const auto parsed = document.document_->load_buffer(
+      bytes.data(), bytes.size(), pugi::parse_default | pugi::parse_declaration);
   if (parsed.encoding == pugi::encoding_utf8) {
     document.line_starts_.push_back(0);
     for (std::size_t at = bytes.find('\n'); at != bytes.npos; at = bytes.find('\n', at + 1)) {
       document.line_starts_.push_back(at + 1);
     }
   }
-  if (!parsed) {
-    Diagnostic d = error("bad-xml"_id, fmt::format("no XML: {}", parsed.description()),
-                         "an XML document of QIF 3.0 (ISO 23952) is expected, whole");
-    const auto offset = std::clamp<std::ptrdiff_t>(parsed.offset, 0, std::ssize(bytes));
-    const Place place = document.place_at(static_cast<std::size_t>(offset));
+  const auto fault_at = [&](std::size_t offset, const std::string& message, std::string hint) {
+    Diagnostic d = error("bad-xml"_id, message, std::move(hint));
+    const Place place = document.place_at(offset);
     d.line = place.line;
     d.column = place.column;
     return d;
+  };
+  if (!parsed) {
+    const auto offset = std::clamp<std::ptrdiff_t>(parsed.offset, 0, std::ssize(bytes));
+    return fault_at(static_cast<std::size_t>(offset),
+                    fmt::format("no XML: {}", parsed.description()),
+                    "an XML document of QIF 3.0 (ISO 23952) is expected, whole");
   }
+  const std::string encoding = document.document_->first_child().attribute("encoding").value();
+  if (!is_read(encoding)) {
+    return fault_at(0, fmt::format("the document is in the encoding {}", encoding),
+                    "UTF-8 is expected: save the document so");
+  }
+  if (const auto unknown = unknown_reference(bytes)) {
+    return fault_at(unknown->offset, fmt::format("{} stands for nothing", unknown->text),
+                    "only &amp; &lt; &gt; &quot; &apos; and numbers such as &#8960; are read");
+  }
+  drop_prefix(document.document_->document_element());
   if (auto problem = document.take_root()) return *std::move(problem);
   if (auto problem = document.take_unit()) return *std::move(problem);
+  if (auto problem = list_fault(document)) return *std::move(problem);
   return document;
 }
 

@@ -13,6 +13,12 @@ namespace {
 
 // A document with two items; `lists` are of their measurements, `sets` the point sets.
 std::string document(const std::string& lists, const std::string& sets, double metres = 0.001) {
+  const auto count = [](const std::string& text, const std::string& element) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(element); at != text.npos; at = text.find(element, at + 1))
+      ++found;
+    return found;
+  };
   return fmt::format(
       R"(<?xml version="1.0" encoding="UTF-8"?>
 <QIFDocument xmlns="http://qifstandards.org/xsd/qif3" versionQIF="3.0.0" idMax="99">
@@ -23,9 +29,10 @@ std::string document(const std::string& lists, const std::string& sets, double m
 <PlaneFeatureItem id="5"><FeatureName>top</FeatureName></PlaneFeatureItem>
 </FeatureItems></Features>
 <Results><MeasurementResultsSet n="1"><MeasurementResults id="6">
-<MeasuredFeatures n="2">{}</MeasuredFeatures><MeasuredPointSets n="1">{}</MeasuredPointSets>
+<MeasuredFeatures n="{}">{}</MeasuredFeatures><MeasuredPointSets n="{}">{}</MeasuredPointSets>
 </MeasurementResults></MeasurementResultsSet></Results></QIFDocument>)",
-      metres, lists, sets);
+      metres, count(lists, "FeatureMeasurement id="), lists, count(sets, "<MeasuredPointSet "),
+      sets);
 }
 
 std::string measured(int item, const std::string& references) {
@@ -135,6 +142,86 @@ TEST(QifPoints, HaveAPlaceInTheDocument) {
   const auto found = parse_feature_points(text, "p.qif");
   ASSERT_TRUE(found);
   EXPECT_EQ(found->front().line, 10);
+}
+
+std::string changed(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+std::string refusal_of(const std::string& text) {
+  const auto read = parse_qif_points(text);
+  return read ? "read" : to_string(read.error().front());
+}
+
+TEST(QifForm, ListsHaveAsManyElementsAsTheySay) {
+  const std::string whole = document(measured(4, kWhole), kSet);
+  EXPECT_EQ(refusal_of(whole), "read");
+  EXPECT_EQ(refusal_of(changed(whole, "<FeatureItems n=\"2\">", "<FeatureItems n=\"3\">")),
+            "5:11: error: <FeatureItems> states n=\"3\", it has 2 elements (hint: as many elements "
+            "as n says are expected: is the document whole?)");
+  for (const char* wrong : {"-1", "1.0", "", "one"}) {
+    EXPECT_EQ(refusal_of(
+                  changed(whole, "<PointList n=\"1\">", fmt::format("<PointList n=\"{}\">", wrong)))
+                  .substr(0, 42),
+              fmt::format("8:99: error: <PointList> states n=\"{}\", it", wrong).substr(0, 42));
+  }
+  // What is not read may say what it likes.
+  EXPECT_EQ(
+      refusal_of(changed(whole, "<Features>", "<Product><LoopSet n=\"8\"/></Product><Features>")),
+      "read");
+}
+
+TEST(QifForm, WhatIsReferredToHasANumber) {
+  const std::string whole = document(measured(4, kWhole), kSet);
+  EXPECT_EQ(refusal_of(changed(whole, "<PlaneFeatureItem id=\"5\">", "<PlaneFeatureItem>")),
+            "7:1: error: <PlaneFeatureItem> has no id (hint: a whole number is expected, by which "
+            "others refer to it)");
+  for (const char* wrong : {"-5", "five", "5.0", ""}) {
+    const std::string item = fmt::format("<PlaneFeatureItem id=\"{}\">", wrong);
+    EXPECT_EQ(refusal_of(changed(whole, "<PlaneFeatureItem id=\"5\">", item)),
+              fmt::format("7:1: error: {} has an id that is no whole number (hint: 0 or more is "
+                          "expected, by which others refer to it)",
+                          item));
+  }
+}
+
+TEST(QifForm, NamesMayHaveThePrefixOfTheirNamespace) {
+  std::string text = document(measured(4, kWhole), kSet);
+  std::string prefixed;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    prefixed += text[i];
+    if (text[i] != '<' || text[i + 1] == '?') continue;
+    if (text[i + 1] == '/') prefixed += text[++i];
+    prefixed += "q:";
+  }
+  prefixed = changed(prefixed, "xmlns=", "xmlns:q=");
+  const auto read = parse_qif_points(prefixed);
+  ASSERT_TRUE(read) << to_string(read.error().front());
+  EXPECT_EQ(read->features.front().points.size(), 3U);
+  EXPECT_EQ(refusal_of(changed(prefixed, "n=\"2\"", "n=\"1\"")).substr(0, 29),
+            "5:13: error: <FeatureItems> s");
+}
+
+TEST(QifForm, ReferencesThatXmlDoesNotDefineAreRefused) {
+  const std::string whole = document(measured(4, kWhole), kSet);
+  EXPECT_EQ(refusal_of(changed(whole, "bore", "&part; bore")),
+            "6:41: error: &part; stands for nothing (hint: only &amp; &lt; &gt; &quot; &apos; and "
+            "numbers such as &#8960; are read)");
+  for (const char* right : {"&#8960;20", "A &amp; B", "<!-- &part; -->", "<![CDATA[&part;]]>"}) {
+    EXPECT_EQ(refusal_of(changed(whole, "bore", std::string("bore ") + right)), "read") << right;
+  }
+}
+
+TEST(QifForm, EncodingsThatAreNotReadAreNamed) {
+  const std::string whole = document(measured(4, kWhole), kSet);
+  EXPECT_EQ(
+      refusal_of(changed(whole, "UTF-8", "windows-1252")),
+      "1:1: error: the document is in the encoding windows-1252 (hint: UTF-8 is expected: save "
+      "the document so)");
+  EXPECT_EQ(refusal_of(changed(whole, "UTF-8", "iso-8859-1")), "read");
+  EXPECT_EQ(refusal_of(changed(whole, " encoding=\"UTF-8\"", "")), "read");
 }
 
 }  // namespace
