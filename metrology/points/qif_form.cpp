@@ -112,7 +112,7 @@ std::optional<UnknownReference> unknown_reference(std::string_view bytes) {
       at = quoted == kQuoted.end() ? at + 1 : bytes.find(quoted->closes, at);
       continue;
     }
-    const std::size_t end = rest.find_first_of(";<&\"' \t\r\n");
+    const std::size_t end = rest.find_first_of(";<&\"' \t\r\n", 1);
     const bool ends = end != rest.npos && rest[end] == ';';
     const std::string_view name = rest.substr(1, ends ? end - 1 : 0);
     const bool is_known = name.starts_with('#') || std::ranges::find(kOfXml, name) != kOfXml.end();
