@@ -162,10 +162,11 @@ TEST(QifForm, ListsHaveAsManyElementsAsTheySay) {
             "5:11: error: <FeatureItems> states n=\"3\", it has 2 elements (hint: as many elements "
             "as n says are expected: is the document whole?)");
   for (const char* wrong : {"-1", "1.0", "", "one"}) {
-    EXPECT_EQ(refusal_of(
-                  changed(whole, "<PointList n=\"1\">", fmt::format("<PointList n=\"{}\">", wrong)))
-                  .substr(0, 42),
-              fmt::format("10:90: error: <PointList> states n=\"{}\", it", wrong).substr(0, 42));
+    const std::string list = fmt::format("<PointList n=\"{}\">", wrong);
+    const std::string refusal = refusal_of(changed(whole, "<PointList n=\"1\">", list));
+    EXPECT_TRUE(refusal.starts_with(
+        fmt::format("10:90: error: <PointList> states n=\"{}\", it has 1 element ", wrong)))
+        << refusal;
   }
   // What is not read may say what it likes.
   EXPECT_EQ(
@@ -207,7 +208,7 @@ TEST(QifForm, NamesMayHaveThePrefixOfTheirNamespace) {
 TEST(QifForm, ReferencesThatXmlDoesNotDefineAreRefused) {
   const std::string whole = document(measured(4, kWhole), kSet);
   EXPECT_EQ(refusal_of(changed(whole, "bore", "&part; bore")),
-            "6:41: error: &part; stands for nothing (hint: only &amp; &lt; &gt; &quot; &apos; and "
+            "6:40: error: &part; stands for nothing (hint: only &amp; &lt; &gt; &quot; &apos; and "
             "numbers such as &#8960; are read)");
   for (const char* right : {"&#8960;20", "A &amp; B", "<!-- &part; -->", "<![CDATA[&part;]]>"}) {
     EXPECT_EQ(refusal_of(changed(whole, "bore", std::string("bore ") + right)), "read") << right;
