@@ -103,6 +103,35 @@ TEST(ConcaveVoidEnd, IsWhatTheTrailingRimOfAHollowEndLeaves) {
   }
 }
 
+// A waist that comes down here and there along the ray, each place a little into the next: what only
+// the waist covers leads the front on from one to the next, whichever of them was looked at first.
+TEST(ConcaveVoidEnd, IsAtTheLastOfPlacesThatOnlyAWaistJoins) {
+  constexpr std::uint32_t kPlaces = 12;
+  constexpr double kApart = 6.78, kUp = -4.8, kDown = -5.2;  // mm; the arc is from 4 to 6 high
+  const double radius = 5.0 - std::sqrt(4.0 - (6.0 + kUp) * (6.0 + kUp));
+  ASSERT_GT(2.0 * radius, kApart);
+  for (const std::uint32_t step : {1U, 5U, 7U, 11U}) {
+    SCOPED_TRACE(step);
+    std::vector<ToolPose> poses;
+    for (std::uint32_t i = 0; i < kPlaces; ++i) {
+      const double x = kApart * ((i * step) % kPlaces);
+      poses.push_back({Vec3(x, 0.0, kUp), Vec3::UnitZ()});
+      poses.push_back({Vec3(x, 0.0, kDown), Vec3::UnitZ()});
+    }
+    ToolPath path = path_through(poses);
+    std::erase_if(path.segments,
+                  [](const kinematics::PathSegment& s) { return s.first_pose % 2 == 1; });
+    const auto swept = SweptCutter::sweep(path, {{1, kind_named("waisted").cutter}});
+    ASSERT_TRUE(swept);
+    for (const double from : {0.0, 2.5, 30.0}) {
+      const Ray ray{Vec3(from, 0.0, 0.0), Vec3::UnitX()};
+      const auto end = swept->end_of_void(ray, 0.0, 200.0);
+      ASSERT_TRUE(end);
+      EXPECT_NEAR(from + end->s, kApart * (kPlaces - 1) + radius, 1e-6) << from;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, VoidEndLaws, testing::Values("ball", "flat", "barrel", "taper"),
                          [](const auto& each) { return std::string(each.param); });
 INSTANTIATE_TEST_SUITE_P(Kinds, ConcaveVoidEndLaws,
