@@ -340,12 +340,12 @@ Result<Identification> identify_parameters(const DynamicModel& model,
                         std::sqrt(static_cast<double>(fit.residual_count() - count));
     const auto unseen = unseen_combinations(fit.at(VectorXd::Zero(count)).jacobian, left, names);
     if (!unseen.empty()) {
-      return error("not-separated"_id,
-                   unseen.front().size() == 1
-                       ? fmt::format("the responses show nothing of {}", unseen.front().front())
-                       : fmt::format("the responses do not tell {} apart",
-                                     fmt::join(unseen.front(), " and ")),
-                   "leave it out, or measure nearer to the modes in which it yields");
+      return error(
+          "not-separated"_id,
+          unseen.front().size() == 1
+              ? fmt::format("the responses show nothing of {}", unseen.front().front())
+              : fmt::format("the responses do not separate {}", fmt::join(unseen.front(), " and ")),
+          "leave it out, or measure nearer to the modes in which it yields");
     }
     return error("not-converged"_id, "no parameters explain the measured responses",
                  "check units and directions of the file, or name other parameters");

@@ -23,8 +23,8 @@ inline constexpr PhraseRow kMotionRows[] = {
     {"NC program", "NC-Programm"},
     {"through {0}: at most {1} {2} from analytic samples",
      "durch {0}: höchstens {1} {2} von den analytischen Werten"},
-    {"told, whatever the set-up: {0}", "bestimmbar, wie auch immer aufgebaut: {0}"},
-    {"not told alone: {0}", "allein nicht bestimmbar: {0}"},
+    {"identified, whatever the set-up: {0}", "bestimmbar, wie auch immer aufgebaut: {0}"},
+    {"not identified alone: {0}", "allein nicht bestimmbar: {0}"},
     {"nothing", "nichts"},
     {"Polar trace", "Aufzeichnung"},
     {"from {0} to {1} {3}, {2} {3} per division", "von {0} bis {1} {3}, {2} {3} je Teilung"},
@@ -37,7 +37,7 @@ inline constexpr PhraseRow kMotionRows[] = {
     {"The sum of all exceeds G where terms cancel.",
      "Die Summe aller ist größer als G, wo sich Glieder aufheben."},
     {"Nothing.", "Nichts."},
-    {"What the test tells", "Was die Prüfung bestimmt"},
+    {"What the test identifies", "Was die Prüfung bestimmt"},
     {"Identified, whatever the set-up", "Bestimmbar, wie auch immer aufgebaut"},
     {"Not identified alone", "Allein nicht bestimmbar"},
     // Circles, ISO 230-4.
@@ -77,7 +77,7 @@ inline constexpr PhraseRow kMotionRows[] = {
     {"nothing, where both directions are run", "nichts, wo beide Richtungen gefahren werden"},
     {"spikes and stick-slip at its reversals", "Spitzen und Ruckgleiten an ihren Umkehrpunkten"},
     {"Residual {0} {1} rms.", "Rest {0} {1} (quadratischer Mittelwert)."},
-    {" One direction alone does not tell servo mismatch from squareness.",
+    {" One direction alone does not separate servo mismatch from squareness.",
      " Eine Richtung allein trennt verschiedene Kv-Faktoren nicht von der Rechtwinkligkeit."},
     {"residual", "Rest"},
     {"contribution", "Beitrag"},
@@ -136,7 +136,7 @@ inline constexpr PhraseRow kMotionRows[] = {
     {"Measured circle in {0}", "Gemessener Kreis in {0}"},
     {"Bar", "Kugelstab"},
     {"Measured line along {0}", "Gemessene Linie entlang {0}"},
-    {"not told by these arcs: {0}", "aus diesen Bögen nicht bestimmbar: {0}"},
+    {"not identified by these arcs: {0}", "aus diesen Bögen nicht bestimmbar: {0}"},
 };
 
 }  // namespace frustum::report

@@ -92,7 +92,7 @@ inline constexpr PhraseRow kStudyRows[] = {
     {"Signal: root mean square of all points' deviations over all machines. Errors that "
      "show: how many of them, alone and at their limits, make 1 µm of form or more. "
      "Directions: in how many independent ways the deviations scatter (participation ratio). "
-     "A strong signal in few directions does not tell one error from another.",
+     "A strong signal in few directions does not separate one error from another.",
      "Signal: quadratischer Mittelwert der Abweichungen aller Punkte über alle Maschinen. "
      "Sichtbare Abweichungen: wie viele von ihnen, allein und an ihren Grenzen, 1 µm "
      "Formabweichung oder mehr bewirken. Richtungen: auf wie viele unabhängige Arten die "

@@ -136,7 +136,7 @@ report::MotionTable signature_table(const Signature& s, instruments::Plane plane
   }
   table.note = words("Residual {0} {1} rms.", shown_um(s.residual_rms, words), words.unit("um"));
   if (!s.both_senses) {
-    table.note += words(" One direction alone does not tell servo mismatch from squareness.");
+    table.note += words(" One direction alone does not separate servo mismatch from squareness.");
   }
   return table;
 }

@@ -178,8 +178,8 @@ void add_told(MotionAnswer& answer, const instruments::Told& told) {
   const auto list = [&](const std::vector<std::string>& names) {
     return names.empty() ? words("nothing") : fmt::format("{}", fmt::join(names, between(words)));
   };
-  answer.text += words("told, whatever the set-up: {0}", list(answer.page.told)) + "\n" +
-                 words("not told alone: {0}", list(answer.page.not_told)) + "\n";
+  answer.text += words("identified, whatever the set-up: {0}", list(answer.page.told)) + "\n" +
+                 words("not identified alone: {0}", list(answer.page.not_told)) + "\n";
 }
 
 }  // namespace frustum::app

@@ -105,9 +105,9 @@ void add_told_terms(MotionAnswer& answer, const CircleTraces& all) {
   answer.page.told = told;
   answer.page.not_told = not_told;
   if (!not_told.empty()) {
-    answer.text +=
-        answer.words("not told by these arcs: {0}", fmt::format("{}", fmt::join(not_told, " "))) +
-        "\n";
+    answer.text += answer.words("not identified by these arcs: {0}",
+                                fmt::format("{}", fmt::join(not_told, " "))) +
+                   "\n";
   }
 }
 

@@ -176,7 +176,7 @@ Result<PlannedObservations> planned_observations(const kinematics::Machine& mach
   if (!points) return points.error();
   if (points->place.empty()) {
     return of_piece(piece, "nothing-measured"_id, "no probed point is on what the program cuts",
-                    "features that the program makes tell its errors");
+                    "features that the program makes show its errors");
   }
   found.observations = rows_with(piece.name,
                                  information_of(*points, metrology::point_uncertainty(*piece.cmm),

@@ -86,7 +86,8 @@ Result<Minimum> settled(GaussNewton solver, const PointBlocks& points,
   if (!found.well_posed) {
     return error(
         "degenerate-points"_id,
-        fmt::format("degenerate points for a {}: they do not tell all of its parameters", what),
+        fmt::format("degenerate points for a {}: they do not determine all of its parameters",
+                    what),
         std::string(wording.remedy));
   }
   if (!found.converged) {

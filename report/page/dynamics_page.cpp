@@ -29,7 +29,7 @@ std::string responses_of(const DynamicsPage& page) {
       "responses", "Frequency responses of the tip",
       content + note_of("Motion of the tool against the workpiece for a force on the tool, "
                         "its reaction on the workpiece. Grey: 2 % of the direct response; "
-                        "below it a hammer that is askew by 1° tells nothing. Dashed: "
+                        "below it a hammer that is askew by 1° shows nothing. Dashed: "
                         "measured."));
 }
 

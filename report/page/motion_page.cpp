@@ -72,7 +72,7 @@ std::string list_of(const std::vector<std::string>& items, const Wording& words)
 
 std::string told_section(const MotionPage& page, const Wording& words) {
   if (page.told.empty() && page.not_told.empty()) return {};
-  return section("told", words("What the test tells"),
+  return section("told", words("What the test identifies"),
                  "<h3>" + words("Identified, whatever the set-up") + "</h3>\n" +
                      list_of(page.told, words) + "<h3>" + words("Not identified alone") +
                      "</h3>\n" + list_of(page.not_told, words));

@@ -211,7 +211,7 @@ std::string map_section(const StudyPage& page, const Wording& words) {
       words("Signal: root mean square of all points' deviations over all machines. Errors that "
             "show: how many of them, alone and at their limits, make 1 µm of form or more. "
             "Directions: in how many independent ways the deviations scatter (participation "
-            "ratio). A strong signal in few directions does not tell one error from another."));
+            "ratio). A strong signal in few directions does not separate one error from another."));
   return section("maps", words("Set-ups"), content);
 }
 

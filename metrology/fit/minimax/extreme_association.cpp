@@ -323,7 +323,7 @@ Diagnostic unproven(const Task& task) {
                  "probe around more than half of the circumference, or use 'ls' or 'mz'");
   }
   return error("association-unproven"_id,
-               fmt::format("no {} by '{}' could be proven: the points hardly tell it",
+               fmt::format("no {} by '{}' could be proven: the points hardly determine it",
                            task.kind.name, name_of(task.options.criterion)),
                "probe more of the surface, or use 'ls'");
 }

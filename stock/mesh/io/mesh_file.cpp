@@ -251,7 +251,7 @@ Result<MeshFormat> mesh_format_of(const fs::path& file) {
   if (extension == ".vtp") return MeshFormat::vtp;
   Diagnostic unknown =
       error("mesh-format"_id,
-            extension.empty() ? std::string("the mesh file has no extension to tell its format")
+            extension.empty() ? std::string("the mesh file has no extension to show its format")
                               : fmt::format("{} is not a mesh format known here", extension),
             kChoices);
   unknown.file = file.string();
