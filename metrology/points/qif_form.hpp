@@ -20,8 +20,8 @@ class QifDocument;
 // Names without the prefix of the root: <qif:Points> is read as <Points>.
 void drop_prefix(pugi::xml_node root);
 
-// The first that is wrong in the lists that plans and points are read from; of all others nothing is
-// said.
+// The first that is wrong in the lists that plans and points are read from; others are not looked
+// at.
 [[nodiscard]] std::optional<Diagnostic> list_fault(const QifDocument& document);
 
 // Where a reference is that XML does not define, such as &part; a byte.

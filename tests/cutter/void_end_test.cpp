@@ -103,8 +103,8 @@ TEST(ConcaveVoidEnd, IsWhatTheTrailingRimOfAHollowEndLeaves) {
   }
 }
 
-// A waist that comes down here and there along the ray, each place a little into the next: what only
-// the waist covers leads the front on from one to the next, whichever of them was looked at first.
+// A waist that comes down here and there along the ray, each place a little into the next: what
+// only the waist covers leads the front on from one to the next, whichever was looked at first.
 TEST(ConcaveVoidEnd, IsAtTheLastOfPlacesThatOnlyAWaistJoins) {
   constexpr std::uint32_t kPlaces = 12;
   constexpr double kApart = 6.78, kUp = -4.8, kDown = -5.2;  // mm; the arc is from 4 to 6 high
