@@ -20,11 +20,16 @@ constexpr double kUndetermined = 0.03;
 // How far along its normal a face is looked for, in pitches. Faces that bend more within a cell are
 // beyond what the pitch resolves.
 constexpr double kReach = 0.25;
-// Each round takes the planes at this fraction of their distance from the vertex. Four rounds end
-// within a thousandth of the pitch, where at a pitch of 0.5 mm a face of radius 5 mm leaves its
-// plane by less than 0.03 nm.
+// The first round takes the planes at this fraction of their distance from the vertex, so that on a
+// face that bends no more than the pitch resolves they are on their side of the edge.
 constexpr double kCloser = 0.15;
+// Later ones take them so many times farther from the vertex than that still is from its place.
+constexpr double kBeside = 4.0;
+// In pitches: nearer planes say no more of a face; a vertex this near to its place is there.
+constexpr double kClosest = 2.5e-4, kInPlace = 1e-8;
 constexpr int kRounds = 4;
+// Path segments that are no farther apart in the program are one pass of the cutter.
+constexpr EndTag kOnePass = 64;
 // Faces of a corner that cross no edge of the cell, and are found when the others do not meet on
 // the surface. At least one face does cross an edge.
 constexpr std::size_t kHiddenFaces = 2;
@@ -46,6 +51,12 @@ Vec3 mean_normal(Samples samples) {
   const double length = sum.norm();
   // Rounding of twelve unit vectors is far below 1e-9; a true mean this short has no use either.
   return length > 1e-9 ? Vec3(sum / length) : Vec3(Vec3::Zero());
+}
+
+double farthest(Samples samples, const Vec3& point) {
+  double most = 0.0;
+  for (const HermiteSample& sample : samples) most = std::max(most, (sample.point - point).norm());
+  return most;
 }
 
 bool is_smooth(Samples samples) {
@@ -95,29 +106,15 @@ Vec3 meet(Samples samples, const BoundingBox& allowed) {
   return mean;
 }
 
-// The samples again, but closer to the vertex; a sample keeps its place if the surface found there
-// belongs to another face.
-void draw_closer(SolidView solid, std::span<HermiteSample> samples, const Vec3& vertex,
-                 double reach, cutter::SweptNear* near) {
-  for (HermiteSample& sample : samples) {
-    const Vec3 at = vertex + kCloser * (sample.point - vertex);
-    const auto found = nearest_surface(solid, at, sample.normal, reach, {{&sample.tag, 1}, near});
-    // Within a cell a face turns by less than 60 degrees, or the pitch is too coarse for it anyway.
-    if (found && found->normal.dot(sample.normal) > 0.5) sample = *found;
-  }
+// What one pass of a cutter made, or one face of another solid, and is smooth.
+bool are_of_one_face(const HermiteSample& a, const HermiteSample& b) {
+  const bool is_one_pass = a.tag >= 0 && b.tag >= 0 && std::abs(a.tag - b.tag) <= kOnePass;
+  return (a.tag == b.tag || is_one_pass) && (a.normal - b.normal).norm() <= kSmooth;
 }
-
-// What the samples say, and what the surface answers.
-struct Answer {
-  PlacedVertex placed;
-  std::optional<HermiteSample> found;  // the surface next to the vertex
-  bool settled = false;                // it is where, and as, the samples say
-};
 
 // What likely makes the surface at a point: between samples of one pass of a cutter, half way along
 // its path if that is their mean; else what made the nearest.
 EndTag likely_tag(Samples samples, const Vec3& point, bool is_mean) {
-  constexpr EndTag kOnePass = 64;
   EndTag first = samples.front().tag, last = first, sum = 0;
   for (const HermiteSample& sample : samples) {
     first = std::min(first, sample.tag);
@@ -132,17 +129,51 @@ EndTag likely_tag(Samples samples, const Vec3& point, bool is_mean) {
   return nearest->tag;
 }
 
+// The samples again, but closer to the vertex, those of a face all where it is beside their mean; they
+// keep their places if the surface found there belongs to another face.
+void draw_closer(SolidView solid, std::span<HermiteSample> samples, const Vec3& vertex,
+                 double closer, double reach, cutter::SweptNear* near) {
+  while (!samples.empty()) {
+    const HermiteSample first = samples.front();
+    const auto others =
+        std::partition(samples.begin(), samples.end(),
+                       [&](const HermiteSample& sample) { return are_of_one_face(first, sample); });
+    const auto face = samples.first(static_cast<std::size_t>(others - samples.begin()));
+    samples = samples.subspan(face.size());
+    const Vec3 at = vertex + closer * (mean_point(face) - vertex);
+    const Vec3 normal = mean_normal(face);
+    const EndTag tag = likely_tag(face, at, true);
+    const auto found = nearest_surface(solid, at, normal, reach, {{&tag, 1}, near});
+    // Within a cell a face turns by less than 60 degrees, or the pitch is too coarse for it anyway.
+    if (found && found->normal.dot(normal) > 0.5) std::ranges::fill(face, *found);
+  }
+}
+
+// What the samples say, and what the surface answers.
+struct Answer {
+  PlacedVertex placed;
+  std::optional<HermiteSample> found;  // the surface next to the vertex
+  bool settled = false;                // it is where, and as, the samples say
+};
+
 Answer solve(SolidView solid, std::span<HermiteSample> samples, const BoundingBox& allowed,
              double pitch, cutter::SweptNear* near) {
   Vec3 vertex = mean_point(samples);
   bool smooth = is_smooth(samples), has_met = false;
+  double closer = kCloser;
   for (int round = 0; round < kRounds && !smooth; ++round) {
     const Vec3 before = vertex;
     vertex = meet(samples, allowed);
     has_met = true;
-    // Flat faces meet where they met before, within rounding; nothing more to learn.
-    if (round > 0 && (vertex - before).norm() < 1e-12 * pitch) break;
-    draw_closer(solid, samples, vertex, kReach * pitch, near);
+    if (round > 0) {
+      // Faces leave their planes by the square of the distance, so the vertex is where it should be
+      // but for this; that of flat faces at once.
+      const double off = closer * closer * (vertex - before).norm();
+      if (off < kInPlace * pitch) break;
+      const double away = farthest(samples, vertex);
+      closer = std::min(kCloser, std::max(kBeside * off, kClosest * pitch) / away);
+    }
+    draw_closer(solid, samples, vertex, closer, kReach * pitch, near);
     smooth = is_smooth(samples);
   }
   if (!smooth) vertex = meet(samples, allowed);
