@@ -40,9 +40,9 @@ BodyDistance from_body(const cutter::Body& body, const ToolPose& pose, const Vec
   return d;
 }
 
-// The least distance of the moving body from a point, from below: the distance of a cutter that
+// The least distance of the moving body from a point, from below: the distance of a convex cutter that
 // moves straight is a convex function of time, so that its tangents at two moments hold it from
-// below in between, but for what turning bends.
+// below in between, but for what turning bends. That of any other changes by no more than its way.
 class LeastDistance {
  public:
   LeastDistance(const cutter::Body& body, const cutter::SegmentMotion& motion, const Vec3& point)
@@ -59,21 +59,28 @@ class LeastDistance {
 
  private:
   [[nodiscard]] double between(const Moment& a, const Moment& b, double enough, int depth) const {
-    const double dt = b.t - a.t;
-    const double fall = std::max(0.0, dt * a.off.out.dot(motion_.velocity(point_, a.t)));
-    const double rise = std::max(0.0, -dt * b.off.out.dot(motion_.velocity(point_, b.t)));
     const double lower = std::min(a.off.value, b.off.value);
-    double least = lower;
-    if (fall > 0.0 && rise > 0.0) {
-      const double t = std::clamp((a.off.value - b.off.value + rise) / (fall + rise), 0.0, 1.0);
-      least = std::min(least, a.off.value - fall * t);
-    }
-    least -= 0.125 * motion_.bend() * dt * dt;
+    const double least = body_.is_convex() ? by_tangents(a, b) : by_way(a, b);
     constexpr int kDeepest = 14;
     if (depth == kDeepest || least > enough || least > 0.8 * lower || lower <= 0.0) return least;
     const double t = 0.5 * (a.t + b.t);
     const Moment middle{t, from_body(body_, motion_.at(t), point_)};
     return std::min(between(a, middle, enough, depth + 1), between(middle, b, enough, depth + 1));
+  }
+
+  [[nodiscard]] double by_tangents(const Moment& a, const Moment& b) const {
+    const double dt = b.t - a.t;
+    const double fall = std::max(0.0, dt * a.off.out.dot(motion_.velocity(point_, a.t)));
+    const double rise = std::max(0.0, -dt * b.off.out.dot(motion_.velocity(point_, b.t)));
+    double least = std::min(a.off.value, b.off.value);
+    if (fall > 0.0 && rise > 0.0) {
+      const double t = std::clamp((a.off.value - b.off.value + rise) / (fall + rise), 0.0, 1.0);
+      least = std::min(least, a.off.value - fall * t);
+    }
+    return least - 0.125 * motion_.bend() * dt * dt;
+  }
+  [[nodiscard]] double by_way(const Moment& a, const Moment& b) const {
+    return 0.5 * (a.off.value + b.off.value - motion_.travel() * (b.t - a.t));
   }
 
   const cutter::Body& body_;
@@ -350,6 +357,13 @@ void WindowBounds::take_segment(Others& others, const ContactPlace& at, std::uin
   const double least = LeastDistance(body, motion, at.point).find({0.0, a}, {1.0, b}, enough);
   if (least > enough) {
     take(others.closeness, {2.0 * largest_ / least, 1.0 / least, 0.0});
+  } else if (!body.is_convex()) {
+    // Between two moments it may be nearest with another of its sides: in every direction it comes
+    // nearer by no more than all that moves.
+    const Closeness any = least > 0.0 ? Closeness{2.0 * largest_ / least, 1.0 / least, 0.0}
+                                      : Closeness{kNever, kNever, 0.0};
+    take(others.closeness, any);
+    take(others.near.rest, any);
   } else {
     take_part(take_part, moment(0.0), moment(1.0), 0);
   }
