@@ -93,6 +93,7 @@ void add_surface(Json& json, const CutResult& result) {
   if (surface.refinement) {
     json["worst_chord_um"] = surface.refinement->worst_chord * kUmPerMm;
     json["unresolved_edges"] = surface.refinement->unresolved_edges;
+    json["unresolved_vertices"] = surface.refinement->unresolved_vertices;
   }
   json["vertices"] = surface.vertices;
   json["triangles"] = surface.triangles;
@@ -151,10 +152,13 @@ std::string surface_text(const CutResult& result) {
                         s.faceted_within->value * kUmPerMm);
   }
   if (s.refinement) {
-    text += fmt::format("triangles leave the surface by at most {:.3f} um",
+    text += fmt::format("largest distance found between triangles and surface {:.3f} um",
                         s.refinement->worst_chord * kUmPerMm);
-    if (const std::size_t left = s.refinement->unresolved_edges; left > 0) {
-      text += fmt::format("; beside {} no surface was found", counted(left, "edge"));
+    const std::size_t edges = s.refinement->unresolved_edges;
+    const std::size_t vertices = s.refinement->unresolved_vertices;
+    if (edges > 0 || vertices > 0) {
+      text += fmt::format("; no surface was found beside {} and {}: a smaller --pitch finds more",
+                          counted(edges, "edge"), counted(vertices, "vertex", "vertices"));
     }
     text += '\n';
   }

@@ -32,8 +32,9 @@ struct SurfaceRequest {
 [[nodiscard]] Result<Mm> surface_pitch(const Job& job, const stock::BoundingBox& box, double asked);
 // How near a refined surface is to the exact one.
 struct Refinement {
-  double worst_chord = 0.0;          // mm; the largest distance found
-  std::size_t unresolved_edges = 0;  // beside which the exact surface was not found
+  double worst_chord = 0.0;  // mm; the largest distance found
+  // Beside which the exact surface was not found.
+  std::size_t unresolved_edges = 0, unresolved_vertices = 0;
 };
 struct FinishedSurface {
   stock::SurfaceMesh mesh{};               // with the deviation of each vertex

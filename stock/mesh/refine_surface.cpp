@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "stock/mesh/surface_mesh_vertex.hpp"
+#include "stock/mesh/unfold_surface.hpp"
 
 namespace frustum::stock {
 namespace {
@@ -446,6 +447,11 @@ Result<RefinedSurface> refine_surface(SolidView solid, SurfaceMesh coarse,
     first_fresh = static_cast<std::uint32_t>(refined.mesh.vertices.size());
     refined.mesh = round.finer();
   }
+  // Where edges were divided that no surface was found beside.
+  settle_averaged(solid, refined.mesh);
+  unfold_surface(refined.mesh);
+  refined.unresolved_vertices =
+      static_cast<std::size_t>(std::ranges::count(refined.mesh.kinds, VertexKind::averaged));
   return refined;
 }
 

@@ -12,7 +12,9 @@
 //            middle of its edges. Edges are split until their middles are within 0.7 of the
 //            tolerance, and the centre of every triangle is asked too
 //            (tests/stock/refine_surface_test.cpp). New vertices are as exact as the solid's rays,
-//            1 nm
+//            1 nm, but for those of VertexKind::averaged: edges that run through a sharp edge of the
+//            solid, where the coarse mesh has no vertex. Triangles that face inwards are mended
+//            (unfold_surface.hpp)
 // Threads  : runs on oneTBB; the same bits for any number of threads
 // Source   : Rivara 1984, Int. J. Numer. Methods Eng. 20 (bisection across the longest edge)
 #pragma once
@@ -33,9 +35,12 @@ struct RefineOptions {
 
 struct RefinedSurface {
   SurfaceMesh mesh{};        // without deviations: those of the coarse mesh say nothing here
-  double worst_chord = 0.0;  // mm; the largest distance found at the middle of an edge or triangle
+  double worst_chord = 0.0;  // mm; the largest distance found at the middle of an edge or triangle;
+                             // nothing is known of unresolved ones
   // Edges whose exact surface was not found beside them: thinner than the triangles are long.
   std::size_t unresolved_edges = 0;
+  // Vertices that are left off the surface, which was not found beside them.
+  std::size_t unresolved_vertices = 0;
   int rounds = 0;
 };
 

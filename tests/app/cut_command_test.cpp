@@ -306,8 +306,10 @@ TEST_F(CutCommandSystem, SaysHowNearARefinedSurfaceIs) {
   EXPECT_GT(doc["worst_chord_um"].get<double>(), 1.0);
   EXPECT_LE(doc["worst_chord_um"].get<double>(), 10.0);
   EXPECT_EQ(doc["unresolved_edges"], 0);
+  EXPECT_EQ(doc["unresolved_vertices"], 0);
   const std::string text = run("cut plate.toml --mesh a.ply --pitch 2 --chord 0.01").out;
-  EXPECT_NE(text.find("triangles leave the surface by at most"), std::string::npos) << text;
+  EXPECT_NE(text.find("largest distance found between triangles and surface"), std::string::npos)
+      << text;
   EXPECT_EQ(text.find("no surface was found"), std::string::npos) << text;
 }
 

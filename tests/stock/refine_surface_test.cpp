@@ -12,6 +12,7 @@
 
 #include "cutter/search/swept_cutter.hpp"
 #include "stock/mesh/decimate_surface.hpp"
+#include "stock/mesh/unfold_surface.hpp"
 #include "stock/solid/facet_solid.hpp"
 #include "stock/solid/workpiece.hpp"
 #include "tests/stock/milling.hpp"
@@ -313,6 +314,7 @@ TEST(RefineSurface, EndsWhereFacesMeetWithinTheGrid) {
   ASSERT_TRUE(refined.has_value());
   EXPECT_LT(refined->mesh.triangles.size(), 20'000U);
   EXPECT_GT(refined->unresolved_edges, 0U);
+  EXPECT_EQ(inward_triangles(refined->mesh), 0U);
   const MeshMeasure measured = measure(refined->mesh);
   EXPECT_TRUE(measured.is_closed);
   EXPECT_TRUE(measured.is_manifold);
