@@ -12,8 +12,8 @@
 //            middle of its edges. Edges are split until their middles are within 0.7 of the
 //            tolerance, and the centre of every triangle is asked too
 //            (tests/stock/refine_surface_test.cpp). New vertices are as exact as the solid's rays,
-//            1 nm, but for those of VertexKind::averaged: edges that run through a sharp edge of the
-//            solid, where the coarse mesh has no vertex. Triangles that face inwards are mended
+//            1 nm, but for those of VertexKind::averaged, on edges that run through a sharp edge of
+//            the solid where the coarse mesh has no vertex. Triangles that face inwards are mended
 //            (unfold_surface.hpp)
 // Threads  : runs on oneTBB; the same bits for any number of threads
 // Source   : Rivara 1984, Int. J. Numer. Methods Eng. 20 (bisection across the longest edge)

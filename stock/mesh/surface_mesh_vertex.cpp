@@ -129,8 +129,8 @@ EndTag likely_tag(Samples samples, const Vec3& point, bool is_mean) {
   return nearest->tag;
 }
 
-// The samples again, but closer to the vertex, those of a face all where it is beside their mean; they
-// keep their places if the surface found there belongs to another face.
+// The samples again, but closer to the vertex, those of a face all where it is beside their mean;
+// they keep their places if the surface found there belongs to another face.
 void draw_closer(SolidView solid, std::span<HermiteSample> samples, const Vec3& vertex,
                  double closer, double reach, cutter::SweptNear* near) {
   while (!samples.empty()) {

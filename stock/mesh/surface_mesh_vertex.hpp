@@ -4,12 +4,12 @@
 //            crossings (the quadratic error function), by SVD about their mean; directions that the
 //            planes do not determine keep the mean. If the normals agree, the piece is smooth: the
 //            mean is moved along its normal onto the exact surface. If not, there is an edge or a
-//            corner: the planes are taken again where the surface is nearer to the solution, one for
-//            each face, and so on, so that curved faces meet where they really do. A curved smooth piece reveals
-//            itself then: its normals come to agree. A face that crosses no edge of the cell is
-//            noticed because the others then do not meet on the surface, and joins them. Where
-//            nothing of that ends on the surface, the vertex is the point of it nearest to the mean
-//            along one of the samples' normals.
+//            corner: the planes are taken again where the surface is nearer to the solution, one
+//            for each face, and so on, so that curved faces meet where they really do. A curved
+//            smooth piece reveals itself then: its normals come to agree. A face that crosses no
+//            edge of the cell is noticed because the others then do not meet on the surface, and
+//            joins them. Where nothing of that ends on the surface, the vertex is the point of it
+//            nearest to the mean along one of the samples' normals.
 // Units    : mm
 // Shape    : 1 to 12 samples of one piece, all on the edges of `cell`; the vertex stays within the
 //            cell grown by `leave` times its size
