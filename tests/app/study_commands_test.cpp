@@ -232,7 +232,7 @@ TEST_F(StudyCommandsSystem, SeesWhatAConcaveToolOfAnotherPassCuts) {
       "%\nO1\nG21 G90 G17\nT1 M6\nS5000 M3\nG54 G43 H1\nG0 X-60 Y15 Z5\nZ-16\nG1 X-40 F500\n";
   for (double x = -39.3; x < 40.0; x += 1.7) program += fmt::format("X{:.3f}\n", x);
   program +=
-      "X60\nG0 Z30\nT2 M6\nS5000 M3\nG54 G43 H2\nG0 X0 Y15.002 Z30\nZ5\nG1 Z-14 F500\nG0 "
+      "X60\nG0 Z150\nT2 M6\nS5000 M3\nG54 G43 H2\nG0 X0 Y15.002 Z30\nZ5\nG1 Z-14 F500\nG0 "
       "Z30\nM30\n%\n";
   write("p.nc", program);
   write("plan.toml",

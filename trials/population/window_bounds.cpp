@@ -41,8 +41,9 @@ BodyDistance from_body(const cutter::Body& body, const ToolPose& pose, const Vec
 }
 
 // The least distance of the moving body from a point, from below: the distance of a convex cutter
-// that moves straight is a convex function of time, so that its tangents at two moments hold it from
-// below in between, but for what turning bends. That of any other changes by no more than its way.
+// that moves straight is a convex function of time, so that its tangents at two moments hold it
+// from below in between, but for what turning bends. That of any other changes by no more than its
+// way.
 class LeastDistance {
  public:
   LeastDistance(const cutter::Body& body, const cutter::SegmentMotion& motion, const Vec3& point)
