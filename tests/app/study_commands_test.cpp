@@ -252,7 +252,7 @@ TEST_F(StudyCommandsSystem, SeesWhatAConcaveToolOfAnotherPassCuts) {
   write("study.toml", "job = \"job.toml\"\nsamples = 40\nengine = \"full\"\n");
   const Outcome one = run("run job.toml --out one --json --error EAZ=-57.22urad");
   ASSERT_EQ(one.exit_code, 0) << one.err;
-  const double worst = json::parse(one.out)["characteristics"][0]["value_um"];
+  const double worst = json::parse(one.out)["characteristics"][0]["value"];
   EXPECT_NEAR(worst, 3.321, 1e-3);
   const Outcome all = run("study study.toml --out all --json");
   ASSERT_EQ(all.exit_code, 0) << all.err;
