@@ -76,7 +76,7 @@ Result<StudyWork> work_of(const StudyOptions& options, const StudyFile& study) {
     return error("given-twice"_id, "--part computes one part, --merge puts all of them together");
   }
   if (*n > 1 && !study.questions.stop.empty()) {
-    return error("stop-rule"_id, "a part of a study does not know when all of it has enough draws",
+    return error("stop-rule"_id, "a part of a study cannot decide when all of it has enough draws",
                  "leave [stop] out, or use MPI, where the ranks share what they know");
   }
   work.job = *k - 1;

@@ -156,10 +156,10 @@ std::string surface_text(const CutResult& result) {
                         s.refinement->worst_chord * kUmPerMm);
     const std::size_t edges = s.refinement->unresolved_edges;
     const std::size_t vertices = s.refinement->unresolved_vertices;
-    if (edges > 0 || vertices > 0) {
-      text += fmt::format("; no surface was found beside {} and {}: a smaller --pitch finds more",
-                          counted(edges, "edge"), counted(vertices, "vertex", "vertices"));
-    }
+    if (edges > 0) text += fmt::format("; beside {} it was not found", counted(edges, "edge"));
+    if (vertices > 0)
+      text += fmt::format("; {} not on it", counted(vertices, "vertex is", "vertices are"));
+    if (edges + vertices > 0) text += ": try a smaller --pitch";
     text += '\n';
   }
   return text + worst_text("worst gouge", s.deviations.gouge, result.limits.gouge) +

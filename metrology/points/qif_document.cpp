@@ -35,15 +35,14 @@ constexpr std::array kUnits{NamedUnit{"mm", 1.0},         NamedUnit{"millimeter"
                             NamedUnit{"in", 25.4},        NamedUnit{"m", 1000.0},
                             NamedUnit{"meter", 1000.0},   NamedUnit{"metre", 1000.0}};
 
-// Those that are found by their bytes, and what is in the first 128 characters alike.
-bool is_read(std::string_view encoding) {
+// Bytes that are not in ASCII say what they stand for only in UTF-8.
+bool is_readable_as_utf8(std::string_view bytes, std::string_view encoding) {
   std::string name(encoding);
   std::ranges::transform(name, name.begin(), [](char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
   });
-  return name.empty() || name.starts_with("UTF-") || name.starts_with("UCS-") ||
-         name == "US-ASCII" || name == "ASCII" || name == "ISO-8859-1" || name == "LATIN1" ||
-         name.starts_with("ISO-10646-UCS-");
+  const bool is_ascii = std::ranges::none_of(bytes, [](char c) { return (c & 0x80) != 0; });
+  return is_ascii || name.empty() || name == "UTF-8" || name == "UTF8";
 }
 
 std::string element_text(xml_node element) {
@@ -78,12 +77,14 @@ Result<QifDocument> QifDocument::parse(std::string_view bytes) {
                     "an XML document of QIF 3.0 (ISO 23952) is expected, whole");
   }
   const std::string encoding = document.document_->first_child().attribute("encoding").value();
-  if (!is_read(encoding)) {
+  const bool is_utf8 = parsed.encoding == pugi::encoding_utf8;
+  if (is_utf8 && !is_readable_as_utf8(bytes, encoding)) {
     return fault_at(0, fmt::format("the document is in the encoding {}", encoding),
-                    "UTF-8 is expected: save the document so");
+                    "save the document as UTF-8");
   }
-  if (const auto unknown = unknown_reference(bytes)) {
-    return fault_at(unknown->offset, fmt::format("{} stands for nothing", unknown->text),
+  const bool is_like_ascii = is_utf8 || parsed.encoding == pugi::encoding_latin1;
+  if (const auto unknown = is_like_ascii ? unknown_reference(bytes) : std::nullopt) {
+    return fault_at(unknown->offset, fmt::format("{} is an entity that is not read", unknown->text),
                     "only &amp; &lt; &gt; &quot; &apos; and numbers such as &#8960; are read");
   }
   drop_prefix(document.document_->document_element());

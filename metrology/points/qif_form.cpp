@@ -23,8 +23,16 @@ constexpr std::array<std::string_view, 10> kReferred{
     "FeatureNominals",     "FeatureItems",           "CharacteristicDefinitions",
     "CharacteristicItems", "CharacteristicNominals", "MeasuredPointSets",
     "MeasuredFeatures"};
+// Others whose elements are counted; n of yet others counts only some of them, or numbers.
+constexpr std::array<std::string_view, 5> kCounted{"Attributes", "Datums", "FeatureItemIds",
+                                                   "FeatureNominalIds", "PointList"};
 
+// Without blanks before and after, as numbers of XML Schema are read.
 std::optional<std::size_t> whole_number(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r\n";
+  const std::size_t begin = text.find_first_not_of(kBlank);
+  if (begin == text.npos) return std::nullopt;
+  text = text.substr(begin, text.find_last_not_of(kBlank) + 1 - begin);
   std::size_t number = 0;
   const char* const end = text.data() + text.size();
   const auto [stop, fault] = std::from_chars(text.data(), end, number);
@@ -37,34 +45,44 @@ std::size_t elements_in(xml_node list) {
       elements.begin(), elements.end(), [](xml_node n) { return n.type() == pugi::node_element; }));
 }
 
-std::optional<Diagnostic> fault_in(const QifDocument& document, xml_node list) {
-  if (const auto stated = list.attribute("n")) {
-    const auto count = whole_number(stated.value());
+// Walks without recursion, however deep the document is.
+struct Lists : pugi::xml_tree_walker {
+  explicit Lists(const QifDocument& of) : document(of) {}
+
+  bool for_each(xml_node& list) override {
+    const bool are_referred = std::ranges::find(kReferred, list.name()) != kReferred.end();
+    if (are_referred || std::ranges::find(kCounted, list.name()) != kCounted.end()) count(list);
+    if (are_referred && !fault) look_at_ids(list);
+    return !fault;
+  }
+
+  void count(xml_node list) {
+    const auto stated = list.attribute("n");
+    if (!stated) return;
     const std::size_t found = elements_in(list);
-    const bool is_of_numbers = found == 0 && !qif_text(list).empty();
-    if (!is_of_numbers && (!count || *count != found)) {
-      return document.fault(
-          list, "element-count"_id,
-          fmt::format("states n=\"{}\", it has {}", stated.value(), counted(found, "element")),
-          "as many elements as n says are expected: is the document whole?");
+    if (whole_number(stated.value()) == found) return;
+    fault = document.fault(
+        list, "element-count"_id,
+        fmt::format("states n=\"{}\", it has {}", stated.value(), counted(found, "element")),
+        "as many elements as n says are expected: is the document whole?");
+  }
+  void look_at_ids(xml_node list) {
+    for (const xml_node each : list) {
+      if (fault || each.type() != pugi::node_element) continue;
+      const auto id = each.attribute("id");
+      if (!id) {
+        fault = document.fault(each, "bad-reference"_id, "has no id",
+                               "a whole number is expected, by which others refer to it");
+      } else if (!whole_number(id.value())) {
+        fault = document.fault(each, "bad-reference"_id, "has an id that is not a whole number",
+                               "a number from 1 on is expected, by which others refer to it");
+      }
     }
   }
-  const bool are_referred = std::ranges::find(kReferred, list.name()) != kReferred.end();
-  for (const xml_node each : list) {
-    if (each.type() != pugi::node_element) continue;
-    const auto id = each.attribute("id");
-    if (are_referred && !id) {
-      return document.fault(each, "bad-reference"_id, "has no id",
-                            "a whole number is expected, by which others refer to it");
-    }
-    if (are_referred && !whole_number(id.value())) {
-      return document.fault(each, "bad-reference"_id, "has an id that is no whole number",
-                            "0 or more is expected, by which others refer to it");
-    }
-    if (auto fault = fault_in(document, each)) return fault;
-  }
-  return std::nullopt;
-}
+
+  const QifDocument& document;
+  std::optional<Diagnostic> fault{};
+};
 
 }  // namespace
 
@@ -87,9 +105,11 @@ void drop_prefix(xml_node root) {
 }
 
 std::optional<Diagnostic> list_fault(const QifDocument& document) {
+  Lists lists(document);
   for (const char* name : kRead) {
-    for (const xml_node part : document.root().children(name)) {
-      if (auto fault = fault_in(document, part)) return fault;
+    for (xml_node part : document.root().children(name)) {
+      if (lists.for_each(part)) part.traverse(lists);
+      if (lists.fault) return lists.fault;
     }
   }
   return std::nullopt;
@@ -109,7 +129,7 @@ std::optional<UnknownReference> unknown_reference(std::string_view bytes) {
     if (rest.front() == '<') {
       const auto* const quoted =
           std::ranges::find_if(kQuoted, [&](const Quoted& q) { return rest.starts_with(q.opens); });
-      at = quoted == kQuoted.end() ? at + 1 : bytes.find(quoted->closes, at);
+      at = quoted == kQuoted.end() ? at + 1 : bytes.find(quoted->closes, at + quoted->opens.size());
       continue;
     }
     const std::size_t end = rest.find_first_of(";<&\"' \t\r\n", 1);

@@ -154,9 +154,9 @@ _SNAPSHOTS = list_of(table("", {"file!": text("Mesh"), **_STATE, "volume_mm3!": 
 CUT = document("cut", "Cut part", "frustum cut --json", {
     "engine": choice(["ray", "polyhedral"], "What made the mesh"),
     "facet_bound_um": number("Of the polyhedral engine"),
-    "worst_chord_um": number("Of --chord: the largest distance found at an edge or a triangle, before --decimate"),
-    "unresolved_edges": count("Of --chord: edges beside which the surface was not found"),
-    "unresolved_vertices": count("Of --chord: vertices beside which the surface was not found"),
+    "worst_chord_um": number("Of --chord: the largest distance found while refining, before folds are mended and --decimate"),
+    "unresolved_edges": count("Of --chord: edges beside which the surface was not found while refining"),
+    "unresolved_vertices": count("Of --chord: vertices left off the surface, before --decimate"),
     "vertices": count("Of the mesh"), "triangles": count("Of the mesh"),
     "closed": flag("The mesh is"), "manifold": flag("The mesh is"),
     "volume_mm3": number("Of the finished part"), "blank_volume_mm3": number(""), "removed_volume_mm3": number(""),

@@ -34,10 +34,12 @@ struct RefineOptions {
 };
 
 struct RefinedSurface {
-  SurfaceMesh mesh{};        // without deviations: those of the coarse mesh say nothing here
-  double worst_chord = 0.0;  // mm; the largest distance found at the middle of an edge or triangle;
-                             // nothing is known of unresolved ones
-  // Edges whose exact surface was not found beside them: thinner than the triangles are long.
+  SurfaceMesh mesh{};  // without deviations: those of the coarse mesh say nothing here
+  // mm; the largest distance found at the middle of an edge or triangle while refining, before
+  // vertices are settled and folds mended. Nothing is known of unresolved ones.
+  double worst_chord = 0.0;
+  // Edges whose exact surface was not found beside them while refining, each time that one was
+  // asked: thinner than the triangles are long.
   std::size_t unresolved_edges = 0;
   // Vertices that are left off the surface, which was not found beside them.
   std::size_t unresolved_vertices = 0;

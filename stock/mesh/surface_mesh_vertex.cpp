@@ -20,10 +20,10 @@ constexpr double kUndetermined = 0.03;
 // How far along its normal a face is looked for, in pitches. Faces that bend more within a cell are
 // beyond what the pitch resolves.
 constexpr double kReach = 0.25;
-// The first round takes the planes at this fraction of their distance from the vertex, so that on a
-// face that bends no more than the pitch resolves they are on their side of the edge.
+// Planes are taken at this fraction of their distance from the vertex, or nearer, so that on a face
+// that bends no more than the pitch resolves they are on their side of the edge.
 constexpr double kCloser = 0.15;
-// Later ones take them so many times farther from the vertex than that still is from its place.
+// After the first round, so many times farther from the vertex than that still is from its place.
 constexpr double kBeside = 4.0;
 // In pitches: nearer planes say no more of a face; a vertex this near to its place is there.
 constexpr double kClosest = 2.5e-4, kInPlace = 1e-8;
@@ -106,7 +106,7 @@ Vec3 meet(Samples samples, const BoundingBox& allowed) {
   return mean;
 }
 
-// What one pass of a cutter made, or one face of another solid, and is smooth.
+// What one pass of a cutter made, or none, and is smooth.
 bool are_of_one_face(const HermiteSample& a, const HermiteSample& b) {
   const bool is_one_pass = a.tag >= 0 && b.tag >= 0 && std::abs(a.tag - b.tag) <= kOnePass;
   return (a.tag == b.tag || is_one_pass) && (a.normal - b.normal).norm() <= kSmooth;
@@ -132,7 +132,7 @@ EndTag likely_tag(Samples samples, const Vec3& point, bool is_mean) {
 // The samples again, but closer to the vertex, those of a face all where it is beside their mean;
 // they keep their places if the surface found there belongs to another face.
 void draw_closer(SolidView solid, std::span<HermiteSample> samples, const Vec3& vertex,
-                 double closer, double reach, cutter::SweptNear* near) {
+                 double distance, double reach, cutter::SweptNear* near) {
   while (!samples.empty()) {
     const HermiteSample first = samples.front();
     const auto others =
@@ -140,7 +140,8 @@ void draw_closer(SolidView solid, std::span<HermiteSample> samples, const Vec3& 
                        [&](const HermiteSample& sample) { return are_of_one_face(first, sample); });
     const auto face = samples.first(static_cast<std::size_t>(others - samples.begin()));
     samples = samples.subspan(face.size());
-    const Vec3 at = vertex + closer * (mean_point(face) - vertex);
+    const Vec3 arm = mean_point(face) - vertex;
+    const Vec3 at = vertex + std::min(kCloser, distance / arm.norm()) * arm;
     const Vec3 normal = mean_normal(face);
     const EndTag tag = likely_tag(face, at, true);
     const auto found = nearest_surface(solid, at, normal, reach, {{&tag, 1}, near});
@@ -160,20 +161,23 @@ Answer solve(SolidView solid, std::span<HermiteSample> samples, const BoundingBo
              double pitch, cutter::SweptNear* near) {
   Vec3 vertex = mean_point(samples);
   bool smooth = is_smooth(samples), has_met = false;
-  double closer = kCloser;
+  double away = 0.0;
   for (int round = 0; round < kRounds && !smooth; ++round) {
     const Vec3 before = vertex;
     vertex = meet(samples, allowed);
     has_met = true;
+    const double now = farthest(samples, vertex);
+    double distance = kInfinity;
     if (round > 0) {
-      // Faces leave their planes by the square of the distance, so the vertex is where it should be
-      // but for this; that of flat faces at once.
-      const double off = closer * closer * (vertex - before).norm();
-      if (off < kInPlace * pitch) break;
-      const double away = farthest(samples, vertex);
-      closer = std::min(kCloser, std::max(kBeside * off, kClosest * pitch) / away);
+      // Faces leave their planes by the square of the distance, and before that the vertex was off
+      // by what it moved: now it is by this, at flat faces by nothing.
+      const double share = now / away;
+      const double off = share * share * (vertex - before).norm();
+      if (!(off >= kInPlace * pitch)) break;
+      distance = std::max(kBeside * off, kClosest * pitch);
     }
-    draw_closer(solid, samples, vertex, closer, kReach * pitch, near);
+    away = now;
+    draw_closer(solid, samples, vertex, distance, kReach * pitch, near);
     smooth = is_smooth(samples);
   }
   if (!smooth) vertex = meet(samples, allowed);

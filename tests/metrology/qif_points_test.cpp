@@ -181,10 +181,12 @@ TEST(QifForm, WhatIsReferredToHasANumber) {
             "others refer to it)");
   for (const char* wrong : {"-5", "five", "5.0", ""}) {
     const std::string item = fmt::format("<PlaneFeatureItem id=\"{}\">", wrong);
-    EXPECT_EQ(refusal_of(changed(whole, "<PlaneFeatureItem id=\"5\">", item)),
-              fmt::format("7:1: error: {} has an id that is no whole number (hint: 0 or more is "
-                          "expected, by which others refer to it)",
-                          item));
+    EXPECT_EQ(
+        refusal_of(changed(whole, "<PlaneFeatureItem id=\"5\">", item)),
+        fmt::format(
+            "7:1: error: {} has an id that is not a whole number (hint: a number from 1 on is "
+            "expected, by which others refer to it)",
+            item));
   }
 }
 
@@ -208,21 +210,50 @@ TEST(QifForm, NamesMayHaveThePrefixOfTheirNamespace) {
 TEST(QifForm, ReferencesThatXmlDoesNotDefineAreRefused) {
   const std::string whole = document(measured(4, kWhole), kSet);
   EXPECT_EQ(refusal_of(changed(whole, "bore", "&part; bore")),
-            "6:40: error: &part; stands for nothing (hint: only &amp; &lt; &gt; &quot; &apos; and "
+            "6:40: error: &part; is an entity that is not read (hint: only &amp; &lt; &gt; &quot; "
+            "&apos; and "
             "numbers such as &#8960; are read)");
   for (const char* right : {"&#8960;20", "A &amp; B", "<!-- &part; -->", "<![CDATA[&part;]]>"}) {
     EXPECT_EQ(refusal_of(changed(whole, "bore", std::string("bore ") + right)), "read") << right;
   }
 }
 
+// As bytes, two for each.
+std::string in_utf16(const std::string& text) {
+  std::string wide = "\xFF\xFE";
+  for (const char c : text) (wide += c) += '\0';
+  return wide;
+}
+
 TEST(QifForm, EncodingsThatAreNotReadAreNamed) {
   const std::string whole = document(measured(4, kWhole), kSet);
-  EXPECT_EQ(
-      refusal_of(changed(whole, "UTF-8", "windows-1252")),
-      "1:1: error: the document is in the encoding windows-1252 (hint: UTF-8 is expected: save "
-      "the document so)");
-  EXPECT_EQ(refusal_of(changed(whole, "UTF-8", "iso-8859-1")), "read");
+  const std::string umlaut = changed(whole, "bore", "B\xFCchse");
+  EXPECT_EQ(refusal_of(changed(umlaut, "UTF-8", "windows-1252")),
+            "1:1: error: the document is in the encoding windows-1252 (hint: save the document as "
+            "UTF-8)");
+  EXPECT_EQ(refusal_of(changed(whole, "UTF-8", "windows-1252")), "read") << "all in ASCII";
+  EXPECT_EQ(refusal_of(changed(umlaut, "UTF-8", "iso-8859-1")), "read");
+  EXPECT_EQ(refusal_of(changed(whole, "UTF-8", "utf8")), "read");
   EXPECT_EQ(refusal_of(changed(whole, " encoding=\"UTF-8\"", "")), "read");
+  const std::string wide = changed(changed(whole, "UTF-8", "UTF-16"), "bore", "A &amp; B");
+  EXPECT_EQ(refusal_of(in_utf16(wide)), "read");
+}
+
+// What is counted there is not every element.
+TEST(QifForm, OtherCountsAreNotLookedAt) {
+  const std::string whole = document(measured(4, kWhole), kSet);
+  for (const char* more :
+       {"<BestFit n=\"2\"><NominalsCalculated/><BaseFeature/><BaseFeature/></BestFit>",
+        "<TipIds n=\"3\"><Ids>1 2 3</Ids></TipIds>"}) {
+    EXPECT_EQ(
+        refusal_of(changed(whole, "<FeatureName>bore", more + std::string("<FeatureName>bore"))),
+        "read")
+        << more;
+  }
+  std::string deep;
+  for (int k = 0; k < 100'000; ++k) deep += "<a>";
+  for (int k = 0; k < 100'000; ++k) deep += "</a>";
+  EXPECT_EQ(refusal_of(changed(whole, "<FeatureName>bore", deep + "<FeatureName>bore")), "read");
 }
 
 }  // namespace

@@ -81,7 +81,8 @@ class LeastDistance {
     return least - 0.125 * motion_.bend() * dt * dt;
   }
   [[nodiscard]] double by_way(const Moment& a, const Moment& b) const {
-    return 0.5 * (a.off.value + b.off.value - motion_.travel() * (b.t - a.t));
+    const double sum = a.off.value + b.off.value - motion_.travel() * (b.t - a.t);
+    return std::min({0.5 * sum, a.off.value, b.off.value});
   }
 
   const cutter::Body& body_;
