@@ -227,7 +227,9 @@ std::string in_utf16(const std::string& text) {
 
 TEST(QifForm, EncodingsThatAreNotReadAreNamed) {
   const std::string whole = document(measured(4, kWhole), kSet);
-  const std::string umlaut = changed(whole, "bore", "B\xFCchse");
+  const std::string umlaut = changed(whole, "bore",
+                                     "B\xFC"
+                                     "chse");
   EXPECT_EQ(refusal_of(changed(umlaut, "UTF-8", "windows-1252")),
             "1:1: error: the document is in the encoding windows-1252 (hint: save the document as "
             "UTF-8)");
