@@ -204,7 +204,7 @@ class Cut {
   struct Meshed {
     stock::SurfaceMesh mesh{};
     std::optional<Mm> bound{};
-    std::optional<Refinement> refinement{};
+    std::optional<stock::Refinement> refinement{};
     // What is judged where it is not the mesh itself: decimation takes away the vertices of flat
     // faces.
     std::optional<stock::SurfaceMesh> whole{};

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "app/job/job_report.hpp"
 #include "core/counted.hpp"
 #include "core/program_version.hpp"
 #include "report/exchange/json_report.hpp"

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "app/job/job.hpp"
-#include "app/job/job_report.hpp"
 #include "report/run_report.hpp"
 #include "stock/collision/collision.hpp"
 #include "stock/mesh/deviation.hpp"
+#include "stock/mesh/refine_surface.hpp"
 #include "stock/mesh/surface_mesh.hpp"
 #include "stock/solid/program_state.hpp"
 #include "stock/solid/removal.hpp"
@@ -27,7 +27,7 @@ struct CutSurface {
   stock::WorstDeviations deviations{};
   double lowest = 0.0, highest = 0.0;  // mm, of all deviations; 0 without any
   std::optional<Mm> faceted_within{};  // of the polyhedral engine: its bound
-  std::optional<Refinement> refinement{};
+  std::optional<stock::Refinement> refinement{};
 };
 
 struct Snapshot {

@@ -276,8 +276,7 @@ Result<FinishedSurface> finished_surface(const Job& job, const stock::WorkpieceA
   if (chord > 0.0) {
     auto refined = stock::refine_surface(part, std::move(surface.mesh), {.chord = Mm{chord}});
     if (!refined) return refined.error();
-    surface = {std::move(refined->mesh), Refinement{refined->worst_chord, refined->unresolved_edges,
-                                                    refined->unresolved_vertices}};
+    surface = {std::move(refined->mesh), *refined};
   }
   judge_surface(job, surface.mesh);
   return surface;

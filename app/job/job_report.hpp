@@ -2,10 +2,12 @@
 // Units: as report/run_report.hpp. Errors: none.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "app/job/job.hpp"
 #include "report/run_report.hpp"
+#include "stock/mesh/refine_surface.hpp"
 #include "stock/mesh/surface_mesh.hpp"
 #include "stock/solid/program_state.hpp"
 #include "trials/point_proof.hpp"
@@ -30,15 +32,9 @@ struct SurfaceRequest {
 };
 // Of the sampling grid: what is asked for, the job's, or a hundred and twentieth of the box.
 [[nodiscard]] Result<Mm> surface_pitch(const Job& job, const stock::BoundingBox& box, double asked);
-// How near a refined surface is to the exact one.
-struct Refinement {
-  double worst_chord = 0.0;  // mm; the largest distance found
-  // Beside which the exact surface was not found.
-  std::size_t unresolved_edges = 0, unresolved_vertices = 0;
-};
 struct FinishedSurface {
-  stock::SurfaceMesh mesh{};               // with the deviation of each vertex
-  std::optional<Refinement> refinement{};  // where it was refined
+  stock::SurfaceMesh mesh{};                      // with the deviation of each vertex
+  std::optional<stock::Refinement> refinement{};  // where it was refined
 };
 // The surface at the part's program state.
 [[nodiscard]] Result<FinishedSurface> finished_surface(const Job& job,

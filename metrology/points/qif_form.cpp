@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <string>
 
 #include "core/counted.hpp"
 #include "metrology/points/qif_document.hpp"

@@ -24,8 +24,8 @@ void drop_prefix(pugi::xml_node root);
 // at.
 [[nodiscard]] std::optional<Diagnostic> list_fault(const QifDocument& document);
 
-// Where a reference is that XML itself does not define, such as &part; the bytes are those of ASCII
-// below 0x80.
+// The first reference to an entity that XML itself does not define, such as &part; in bytes that
+// are ASCII below 0x80.
 struct UnknownReference {
   std::size_t offset = 0;
   std::string_view text{};  // with & and ;

@@ -423,7 +423,8 @@ Result<RefinedSurface> refine_surface(SolidView solid, SurfaceMesh coarse,
     return error("mesh-normals"_id, "the mesh to be refined has no normals",
                  "use one of extract_surface()");
   }
-  RefinedSurface refined{.mesh = std::move(coarse)};
+  RefinedSurface refined;
+  refined.mesh = std::move(coarse);
   refined.mesh.deviation.clear();
   settle_averaged(solid, refined.mesh);
   std::uint32_t first_fresh = 0;

@@ -33,8 +33,8 @@ struct RefineOptions {
   std::size_t max_triangles = 20'000'000;  // about 2 GB while refining
 };
 
-struct RefinedSurface {
-  SurfaceMesh mesh{};  // without deviations: those of the coarse mesh say nothing here
+// How near a refined surface is to the exact one.
+struct Refinement {
   // mm; the largest distance found at the middle of an edge or triangle while refining, before
   // vertices are settled and folds mended. Nothing is known of unresolved ones.
   double worst_chord = 0.0;
@@ -43,6 +43,10 @@ struct RefinedSurface {
   std::size_t unresolved_edges = 0;
   // Vertices that are left off the surface, which was not found beside them.
   std::size_t unresolved_vertices = 0;
+};
+
+struct RefinedSurface : Refinement {
+  SurfaceMesh mesh{};  // without deviations: those of the coarse mesh say nothing here
   int rounds = 0;
 };
 
