@@ -1,0 +1,365 @@
+#include "cutter/sweep/highest_end.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/golden_section.hpp"
+#include "cutter/sweep/chord_roof.hpp"
+
+namespace frustum::cutter {
+namespace {
+
+// Two moments whose cutters are this near are one (mm): rounding of their chords is larger.
+constexpr double kSameState = 1e-11;
+// From here on grazing rays are looked for.
+constexpr int kOftenHalved = 6;
+// A search that needs more than this runs along the surface within rounding.
+constexpr int kMostLooks = 20000;
+// A cutter this near to where its edge is on the ray touches it with the edge (mm of motion).
+constexpr double kOnEdge = 1e-9;
+// Circles of a smaller radius (mm) are points.
+constexpr double kPoint = 1e-6;
+// The ray passes through an edge that it is this near to (mm): rounding is less.
+constexpr double kInEdge = 1e-12;
+
+// A circle where two faces of the profile meet.
+struct EdgeCircle {
+  double radius = 0.0, height = 0.0;
+};
+std::optional<EdgeCircle> edge_of(const Profile& body, ProfileFace a, ProfileFace b) {
+  const auto zones = body.zones();
+  const auto last = static_cast<ProfileFace>(zones.size()) - 1;
+  const ProfileFace low = std::min(a, b), high = std::max(a, b);
+  const auto at = [&](ProfileFace face, bool upper) -> std::optional<EdgeCircle> {
+    const Zone& zone = zones[static_cast<std::size_t>(face)];
+    if (zone.kind != ZoneKind::cone) return std::nullopt;
+    const double height = upper ? zone.z_hi : zone.z_lo;
+    return EdgeCircle{zone.radius + zone.slope * (height - zone.z_lo), height};
+  };
+  if (low == kBottomFace && high == 0) return at(0, false);
+  if (low == kTopFace && high == last) return at(last, true);
+  if (low >= 0 && high == low + 1) return at(low, true);
+  return std::nullopt;
+}
+
+// When a ray passes through the circle, between two moments at which it passes the circle's plane
+// within and outside of it.
+std::optional<double> passage_through(const EdgeCircle& edge, const SegmentMotion& motion,
+                                      const Ray& ray, double from, double to) {
+  constexpr int kSoon = 16;
+  const auto outside = [&](double t) {
+    const ToolPose pose = motion.at(t);
+    const Vec3 m = ray.origin - pose.tip;
+    const double s = (edge.height - m.dot(pose.axis)) / ray.direction.dot(pose.axis);
+    return (m + s * ray.direction - edge.height * pose.axis).norm() - edge.radius;
+  };
+  double a = from, b = to, at_a = outside(a), at_b = outside(b);
+  if (!(at_a * at_b < 0.0)) return std::nullopt;
+  // By secants that keep the passage between them; an end that stays counts for less.
+  for (int i = 0; i < kSoon; ++i) {
+    const double t = b - at_b * (b - a) / (at_b - at_a), at = outside(t);
+    if (!(std::abs(at) > kInEdge) || !(std::min(std::abs(t - a), std::abs(b - t)) > 0.0)) return t;
+    if (at * at_b < 0.0) {
+      a = b;
+      at_a = at_b;
+    } else {
+      at_a *= 0.5;
+    }
+    b = t;
+    at_b = at;
+  }
+  return std::nullopt;
+}
+
+// For what share u of the way height + rise u + bend u^2 is not below 0.
+double share_above(double height, double rise, double bend) {
+  if (!(height >= 0.0)) return 0.0;
+  const double root2 = rise * rise - 4.0 * bend * height;
+  if (height + rise + bend >= 0.0 &&
+      (bend <= 0.0 || rise >= 0.0 || -rise >= 2.0 * bend || root2 <= 0.0)) {
+    return 1.0;
+  }
+  // The first of the roots ahead.
+  const double q = std::sqrt(std::max(0.0, root2)) - rise;
+  return q > 0.0 ? std::min(1.0, 2.0 * height / q) : 1.0;
+}
+
+}  // namespace
+
+void HighestEnd::search(const ChordSample& from, const ChordSample& to) {
+  if (floor_ == kInfinity) {
+    offer(from);
+  } else {
+    close_in(touched(from), touched(to), 0);
+    come_to_edge();
+  }
+}
+
+std::pair<TangentPlane, TangentPlane> HighestEnd::search_with_planes(const ChordSample& from,
+                                                                     const ChordSample& to) {
+  const Touched a = touched(from), b = touched(to);
+  close_in(a, b, 0);
+  come_to_edge();
+  return {a.plane, b.plane};
+}
+
+void HighestEnd::search_joined(const ChordSample& from, const ChordSample& to) {
+  if (floor_ == kInfinity) {
+    offer(from);
+    return;
+  }
+  const Touched a = touched(from), b = touched(to);
+  if (stays_below_floor(a, b)) {
+    note(a);
+    note(b);
+    return;
+  }
+  close_in(a, b, 0);
+  come_to_edge();
+}
+
+ChordSample HighestEnd::sample_at(double t) const {
+  ChordSample sample{.t = t, .pose = motion_.at(t)};
+  sample.chord = body_.chord(sample.pose, ray_);
+  return sample;
+}
+
+HighestEnd::Touched HighestEnd::touched(const ChordSample& s) const {
+  return {s.t, s.pose, TangentPlane(body_, s.pose, ray_, *s.chord, leaving_),
+          leaving_ ? s.chord->hi_face : s.chord->lo_face};
+}
+
+void HighestEnd::close_in(const Touched& a, const Touched& b, int depth, bool is_sought) {
+  note(a);
+  note(b);
+  const double dt = b.t - a.t;
+  if (best_value_ >= ceiling_ || depth > 60 || dt * motion_.travel() < kSameState) return;
+  const bool has_edge = is_edge_between(a, b);
+  // First of all, so that where a top is does not depend on what is covered.
+  if (!is_sought) {
+    is_sought = true;
+    const auto top =
+        has_edge ? edge_top_between(a, b) : summit_between(a, b, 0.25 * kSearchTolerance);
+    if (top) {
+      close_in(a, *top, depth + 1, true);
+      close_in(*top, b, depth + 1, true);
+      return;
+    }
+    if (gap_) return;
+  }
+  if (has_edge && (best_t_ == a.t || best_t_ == b.t)) beside_edge_.emplace(a, b);
+  if (motion_.turn() > 0.0 && surely_no_deeper(a, b)) return;
+  const double along = std::max(a.plane.along, b.plane.along);
+  const double enough = std::max(best_value_, floor_) + kSearchTolerance / along;
+  const Roof roof(a.plane, a.plane.crossing(b.pose, ray_), b.plane, b.plane.crossing(a.pose, ray_),
+                  motion_, dt);
+  if (roof.top() <= enough) return;
+  if (motion_.turn() == 0.0 && depth >= kOftenHalved) {
+    if (surely_no_deeper(a, b)) return;
+    climb(a.t, b.t);
+    return;
+  }
+  if (++looks_ > kMostLooks) return;
+  const double x = roof.place_to_look(depth, has_edge);
+  const double t = a.t + std::clamp(x, 1e-3, 1.0 - 1e-3) * dt;
+  const ChordSample middle = sample_at(t);
+  if (!middle.chord) {
+    note_gap(t, dt);
+    return;
+  }
+  const Touched m = touched(middle);
+  note(m);
+  close_in(a, m, depth + 1, is_sought);
+  close_in(m, b, depth + 1, is_sought);
+}
+
+bool HighestEnd::stays_below_floor(const Touched& a, const Touched& b) const {
+  if (!(a.plane.value < floor_ && b.plane.value < floor_)) return false;
+  const Roof roof(a.plane, a.plane.crossing(b.pose, ray_), b.plane, b.plane.crossing(a.pose, ray_),
+                  motion_, b.t - a.t);
+  return roof.top() <= floor_;
+}
+
+// The ray leaves by two faces that make an edge.
+bool HighestEnd::is_edge_between(const Touched& a, const Touched& b) {
+  constexpr double kSharp = 0.2;  // of the normals' axial parts
+  return a.face != b.face && std::abs(a.plane.axial - b.plane.axial) > kSharp && !a.is_on_edge &&
+         !b.is_on_edge;
+}
+
+// Where the ray passes through an edge, if the end of the chord rises on the face before and falls
+// on the one after; with the plane there that the motion runs along.
+std::optional<HighestEnd::Touched> HighestEnd::edge_top_between(const Touched& a,
+                                                                const Touched& b) const {
+  const auto edge = edge_of(body_, a.face, b.face);
+  if (!edge || !(edge->radius > kPoint)) return std::nullopt;
+  const auto t = passage_through(*edge, motion_, ray_, a.t, b.t);
+  if (!t) return std::nullopt;
+  const ChordSample sample = sample_at(*t);
+  if (!sample.chord) return std::nullopt;
+  Touched top = touched(sample);
+  TangentPlane& plane = top.plane;
+  const Vec3& axis = top.pose.axis;
+  const Vec3 point = ray_.at(plane.direction * plane.value);
+  const double height = axis.dot(point - top.pose.tip);
+  const Facing before = body_.facing(a.face, top.pose, point);
+  const Facing after = body_.facing(b.face, top.pose, point);
+  const double rho = before.side.dot(point - top.pose.tip);
+  if (!(std::hypot(rho - edge->radius, height - edge->height) < kOnEdge)) return std::nullopt;
+  const Vec3 velocity = motion_.velocity(point, *t);
+  const double outwards = before.side.dot(velocity), up = axis.dot(velocity);
+  const double rise = before.lateral * outwards + before.axial * up;
+  const double fall = -(after.lateral * outwards + after.axial * up);
+  if (!(rise > 0.0 && fall > 0.0)) return std::nullopt;
+  const double lateral = fall * before.lateral + rise * after.lateral;
+  const double axial = fall * before.axial + rise * after.axial;
+  const double length = std::hypot(lateral, axial);
+  plane.side = before.side;
+  plane.lateral = lateral / length;
+  plane.axial = axial / length;
+  plane.offset = plane.lateral * edge->radius + plane.axial * edge->height;
+  plane.along = std::max(plane.direction * plane.normal_across(axis).dot(ray_.direction), 1e-12);
+  top.is_on_edge = true;
+  return top;
+}
+
+// The best is on one of two faces that make an edge, and the other end of its span on the other:
+// on to where the cutter touches the ray with that edge, if it is higher there. The height hardly
+// tells how far that is, where it rises slowly; the normal does.
+void HighestEnd::come_to_edge() {
+  constexpr int kSoon = 24;
+  if (!beside_edge_ || best_value_ >= ceiling_ || gap_ || !(best_value_ > floor_)) return;
+  auto& [a, b] = *beside_edge_;
+  if (best_t_ != a.t && best_t_ != b.t) return;
+  for (int i = 0; i < kSoon; ++i) {
+    const double dt = b.t - a.t;
+    const Roof roof(a.plane, a.plane.crossing(b.pose, ray_), b.plane,
+                    b.plane.crossing(a.pose, ray_), motion_, dt);
+    const double x = i % 4 == 3 ? 0.5 : roof.place_to_look(0, true);
+    const double t = a.t + std::clamp(x, 0.0, 1.0) * dt;
+    if (!(std::min(t - a.t, b.t - t) * motion_.travel() > kOnEdge)) return;
+    const ChordSample middle = sample_at(t);
+    if (!middle.chord) return;
+    const Touched m = touched(middle);
+    note(m);
+    if (m.face != a.face && m.face != b.face) return;
+    (m.face == a.face ? a : b) = m;
+  }
+}
+
+// How fast the end of the chord moves there, counted upwards: the envelope condition where 0.
+double HighestEnd::slope_of(const Touched& at) const {
+  const Vec3 point = ray_.at(at.plane.direction * at.plane.value);
+  return at.plane.normal_across(at.pose.axis).dot(motion_.velocity(point, at.t)) / at.plane.along;
+}
+
+// Where the end of the chord is highest between two moments, where it rises at the one and falls
+// at the other, smoothly: until what is left of the slope makes less than `enough` up to either.
+// Nothing where it does not get there soon.
+std::optional<HighestEnd::Touched> HighestEnd::summit_between(const Touched& a, const Touched& b,
+                                                              double enough) {
+  constexpr int kSoon = 8;
+  struct Place {
+    double t, slope;
+  };
+  Place rises{a.t, slope_of(a)};
+  if (!(rises.slope > 0.0)) return std::nullopt;
+  Place falls{b.t, slope_of(b)};
+  if (!(falls.slope < 0.0)) return std::nullopt;
+  // The secant through the last two, the first of which is the flatter end.
+  Place last = rises, before = falls;
+  if (last.slope > -before.slope) std::swap(last, before);
+  for (int i = 0; i < kSoon; ++i) {
+    const double t = last.t - last.slope * (last.t - before.t) / (last.slope - before.slope);
+    if (!(rises.t < t && t < falls.t) || ++looks_ > kMostLooks) return std::nullopt;
+    const ChordSample sample = sample_at(t);
+    if (!sample.chord) {
+      note_gap(t, b.t - a.t);
+      return std::nullopt;
+    }
+    const Touched here = touched(sample);
+    note(here);
+    before = last;
+    last = {t, slope_of(here)};
+    if (std::abs(last.slope) * (b.t - a.t) * here.plane.along <= enough) return here;
+    if (std::abs(last.slope) > 0.5 * std::abs(before.slope)) return std::nullopt;
+    (last.slope > 0.0 ? rises : falls) = last;
+  }
+  return std::nullopt;
+}
+
+// Else it is within rounding of the surface, or of an end of the run.
+void HighestEnd::note_gap(double t, double dt) {
+  if (motion_.turn() > 0.0 && dt * motion_.travel() > 10.0 * kTangentMotion) gap_ = t;
+}
+
+// Of a body that does not turn the end of the chord is a concave function of time.
+void HighestEnd::climb(double lo, double hi) {
+  const auto depth = [&](double t) {
+    const ChordSample at = sample_at(t);
+    if (!at.chord) return kInfinity;
+    const Touched end = touched(at);
+    note(end);
+    return -end.plane.value;
+  };
+  static_cast<void>(golden_section(depth, lo, hi, kSameState / motion_.travel()));
+}
+
+// Whether the place that is the best so far is, at all times between two samples, above one of
+// the planes that touch the body at them.
+bool HighestEnd::surely_no_deeper(const Touched& a, const Touched& b) const {
+  const double best = std::max(best_value_, floor_);
+  if (std::isinf(best)) return false;
+  const Vec3 point = ray_.at(leaving_ ? best : -best);
+  // At a smooth top the plane mostly holds all the way.
+  const bool is_at_a = a.plane.value > b.plane.value;
+  const Touched &higher = is_at_a ? a : b, &lower = is_at_a ? b : a;
+  const double from_higher = height_holds(higher, lower.pose, point);
+  if (!(from_higher > 0.0)) return false;
+  if (from_higher >= 1.0) return true;
+  const double from_lower = height_holds(lower, higher.pose, point);
+  return from_lower > 0.0 && from_higher + from_lower >= 1.0;
+}
+
+// From a sample towards a pose: for what share of the way the point is surely not below the plane
+// that touches the body there, less kSearchTolerance, nor what is beyond it along the ray. The
+// height of the point is at least lateral w.(m x a) + axial m.a - offset (group_bound.hpp has the
+// reason), with w as it is there: of straight motions of tip and axis a parabola in time.
+double HighestEnd::height_holds(const Touched& from, const ToolPose& to, const Vec3& point) const {
+  const TangentPlane& plane = from.plane;
+  const Vec3& a = from.pose.axis;
+  const Vec3 m = point - from.pose.tip;
+  const Vec3 normal = plane.normal_across(a);
+  const double above = normal.dot(m) - plane.offset + kSearchTolerance;
+  if (!(above >= 0.0)) return 0.0;
+  const Vec3 step = to.tip - from.pose.tip, turn = to.axis - a;
+  const Vec3 w = plane.side.cross(a);
+  const Vec3 by_axis = plane.lateral * w.cross(m) + plane.axial * m;
+  const double turned2 = turn.squaredNorm();
+  constexpr double kFarTurned = 0.06;  // a sample and the next are nearer
+  if (turned2 > kFarTurned * kFarTurned || !(plane.along * plane.along > 1.21 * turned2))
+    return 0.0;
+  // Where the axis is on its great circle, a share u of the way: u (1 - u) turn^2 / 2 outside of
+  // the chord, within turn^2 / 5 of that, and less than u (1 - u) turn^3 / 11.75 beside it. (Turn
+  // and chord: the difference is in these numbers.) All that is not known is so much, or less,
+  // times 4 u (1 - u): nothing where the sample is.
+  const Vec3 outwards = a + 0.5 * turn;
+  const double arc = 0.5 * turned2 * by_axis.dot(outwards);
+  const double beside = turned2 * std::sqrt(turned2) / 47.0;
+  const double sideways =
+      std::abs(plane.lateral * outwards.cross(w).dot(step) + plane.axial * outwards.dot(step));
+  // w is across the meridian there only, and |m x a| at least w.(m x a) / |w x a|.
+  const double across = std::abs(w.dot(turn)), far = m.norm(), run = step.norm();
+  const Vec3 there = point - to.tip;
+  const double least_rho = std::min(w.dot(m.cross(a)), w.dot(there.cross(to.axis))) -
+                           run * std::sqrt(turned2) - far * turned2 / 7.9;
+  const double turns = 0.5 * plane.lateral * std::max(0.0, least_rho) * across * across;
+  const double unknown = turned2 / 7.9 * sideways + beside * (far + run) +
+                         std::abs(arc) * turned2 / 20.0 + far * across * beside;
+  const double rise = by_axis.dot(turn) + arc - normal.dot(step) - 4.0 * unknown;
+  const double bend = turns - arc + 4.0 * unknown -
+                      (plane.lateral * w.dot(step.cross(turn)) + plane.axial * step.dot(turn));
+  return share_above(above, rise, bend);
+}
+
+}  // namespace frustum::cutter
