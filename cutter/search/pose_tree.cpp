@@ -23,25 +23,49 @@ constexpr std::uint32_t kTask = 4096;
 // So many segments say which way a group extends.
 constexpr std::uint32_t kSampled = 512;
 
-// Quads under a group of so many segments. Quartered again and again they come in two sizes, n and
-// n + 1.
-std::uint32_t quads_under(std::uint32_t count) {
-  // Up to here the quarters are leaves.
-  constexpr std::uint32_t kOneQuad = kSiblings * kLeaf;
-  std::uint32_t quads = 0, n = count, of_n = 1, of_more = 0;
-  while (n > kOneQuad) {
-    quads += of_n + of_more;
-    // Of n, n % 4 quarters have one more; of n + 1 one more of them.
-    const std::uint32_t more = n % kSiblings;
-    const std::uint32_t next_more = more * of_n + (more + 1) * of_more;
-    of_n = kSiblings * (of_n + of_more) - next_more;
-    of_more = next_more;
-    n /= kSiblings;
-  }
-  // 17: a quarter of five is no leaf.
-  const auto left = [](std::uint32_t k) { return k <= kLeaf ? 0U : k <= kOneQuad ? 1U : 2U; };
-  return quads + of_n * left(n) + of_more * left(n + 1);
+// Quads of leaves are filled as far as they go, and so are the quads over them: only the upper ones
+// have fewer groups than four. So many quads of leaves for so many segments; a leaf needs none.
+std::uint32_t leaf_quads_of(std::uint32_t segments) {
+  constexpr std::uint32_t kMost = kSiblings * kLeaf;
+  return segments <= kLeaf ? 0 : (segments + kMost - 1) / kMost;
 }
+
+// Into how many groups one is divided that has so many quads of leaves.
+std::uint32_t children_of(std::uint32_t leaf_quads) {
+  if (leaf_quads == 1) return kSiblings;
+  std::uint32_t most = 1;  // of a child
+  while (kSiblings * most < leaf_quads) most *= kSiblings;
+  return (leaf_quads + most - 1) / most;
+}
+
+// All quads under a group that has so many quads of leaves.
+std::uint32_t quads_under(std::uint32_t leaf_quads) {
+  if (leaf_quads <= 1) return leaf_quads;
+  const std::uint32_t children = children_of(leaf_quads), more = leaf_quads % children;
+  const std::uint32_t of_less = quads_under(leaf_quads / children);
+  const std::uint32_t of_more = more == 0 ? 0 : quads_under(leaf_quads / children + 1);
+  return 1 + (children - more) * of_less + more * of_more;
+}
+
+// The segments of a group, and how many quads of leaves they fill.
+struct Portion {
+  std::uint32_t first = 0, count = 0, leaf_quads = 0;
+
+  // Of the children from number i on what is before number j.
+  [[nodiscard]] Portion of_children(std::uint32_t i, std::uint32_t j) const {
+    const std::uint32_t children = children_of(leaf_quads);
+    const auto share = [](std::uint32_t whole, std::uint32_t part, std::uint32_t of) {
+      return static_cast<std::uint32_t>(std::uint64_t{whole} * part / of);
+    };
+    if (leaf_quads == 1) {
+      const std::uint32_t from = share(count, i, children);
+      return {first + from, share(count, j, children) - from, 0};
+    }
+    const std::uint32_t from = share(leaf_quads, i, children), to = share(leaf_quads, j, children);
+    const std::uint32_t begin = share(count, from, leaf_quads);
+    return {first + begin, share(count, to, leaf_quads) - begin, to - from};
+  }
+};
 
 // Mean and spread of some vectors.
 class Scatter {
@@ -101,27 +125,18 @@ class Builder {
         quads_(quads),
         keyed_(order.size()) {}
 
-  // Of the segments from `first` on; what is under it goes to the quads from `free` on.
-  void build(Place place, std::uint32_t first, std::uint32_t count, std::uint32_t free) {
-    const Spread spread = spread_of(first, count);
-    describe(place, first, count, spread.directions);
+  // What is under the group goes to the quads from `free` on.
+  void build(Place place, const Portion& all, std::uint32_t free) {
+    const Spread spread = spread_of(all);
+    describe(place, all.first, all.count, spread.directions);
     GroupQuad& quad = quads_[place.quad];
-    if (count <= kLeaf) {
-      quad.next[place.lane] = first;
-      quad.count[place.lane] = static_cast<std::uint16_t>(count);
-      finish_leaf(place, first, count);
+    if (all.leaf_quads == 0) {
+      quad.next[place.lane] = all.first;
+      quad.count[place.lane] = static_cast<std::uint16_t>(all.count);
+      finish_leaf(place, all.first, all.count);
       return;
     }
-    const std::uint32_t half = count / 2, left = free + 1, right = left + quads_in_half(half);
-    part(first, count, half, spread);
-    const auto build_left = [&] { build_half({free, 0}, first, half, left); };
-    const auto build_right = [&] { build_half({free, 2}, first + half, count - half, right); };
-    if (count > kTask) {
-      tbb::parallel_invoke(build_left, build_right);
-    } else {
-      build_left();
-      build_right();
-    }
+    build_children(free, all, {0, children_of(all.leaf_quads)}, &spread, free + 1);
     const GroupQuad& children = quads_[free];
     for (std::size_t k = 0; k < 3; ++k) {
       quad.box_min[k][place.lane] = *std::ranges::min_element(children.box_min[k]);
@@ -147,28 +162,44 @@ class Builder {
     return path_.to(path_.segments[order_[i]]);
   }
 
-  // Half of a group: one sibling if it is a leaf, else two.
-  void build_half(Place place, std::uint32_t first, std::uint32_t count, std::uint32_t free) {
-    if (count <= kLeaf) {
-      build(place, first, count, free);
-      return;
-    }
-    const std::uint32_t half = count / 2;
-    part(first, count, half, spread_of(first, count));
-    build(place, first, half, free);
-    build({place.quad, place.lane + 1}, first + half, count - half, free + quads_under(half));
-  }
-  [[nodiscard]] static std::uint32_t quads_in_half(std::uint32_t count) {
-    return count <= kLeaf ? 0 : quads_under(count / 2) + quads_under(count - count / 2);
-  }
-
   // Which way some segments extend, the least first, and which way they are halved.
   struct Spread {
     Mat3 directions = Mat3::Identity();
     Vec3 along = Vec3::Zero();
     bool by_place = true;
   };
-  [[nodiscard]] Spread spread_of(std::uint32_t first, std::uint32_t count) const {
+
+  // Some of a group's children, side by side in one quad; `known`: how they extend, if known.
+  struct Siblings {
+    std::uint32_t from = 0, to = 0;
+  };
+  void build_children(std::uint32_t quad, const Portion& all, const Siblings& some,
+                      const Spread* known, std::uint32_t free) {
+    const Portion whole = all.of_children(some.from, some.to);
+    if (some.to - some.from == 1) {
+      build({quad, some.from}, whole, free);
+      return;
+    }
+    const std::uint32_t half = (some.from + some.to) / 2;
+    part(whole.first, whole.count, all.of_children(some.from, half).count,
+         known != nullptr ? *known : spread_of(whole));
+    std::uint32_t free_right = free;
+    for (std::uint32_t i = some.from; i < half; ++i)
+      free_right += quads_under(all.of_children(i, i + 1).leaf_quads);
+    const auto build_left = [&] { build_children(quad, all, {some.from, half}, nullptr, free); };
+    const auto build_right = [&] {
+      build_children(quad, all, {half, some.to}, nullptr, free_right);
+    };
+    if (whole.count > kTask) {
+      tbb::parallel_invoke(build_left, build_right);
+    } else {
+      build_left();
+      build_right();
+    }
+  }
+
+  [[nodiscard]] Spread spread_of(const Portion& all) const {
+    const auto [first, count, leaf_quads] = all;
     Scatter tips, axes;
     const Vec3 centre = from(first).tip;  // keeps the products small
     bool turns = false;
@@ -313,8 +344,9 @@ PoseTree::PoseTree(const ToolPath& path, std::vector<std::uint32_t> segments, co
     : segments_(std::move(segments)) {
   if (segments_.empty()) return;
   const auto count = static_cast<std::uint32_t>(segments_.size());
-  quads_.resize(1 + quads_under(count));
-  Builder(path, segments_, body, quads_).build({0, 0}, 0, count, 1);
+  const Portion all{0, count, leaf_quads_of(count)};
+  quads_.resize(1 + quads_under(all.leaf_quads));
+  Builder(path, segments_, body, quads_).build({0, 0}, all, 1);
 }
 
 }  // namespace frustum::cutter
