@@ -1,8 +1,8 @@
 #include "cutter/search/sweep_contact.hpp"
 
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <optional>
-#include <vector>
 
 #include "cutter/sweep/concave_sweep.hpp"
 
@@ -15,11 +15,13 @@ struct MeridianNormal {
 };
 
 // Outward normals of the generatrix's pieces that end or pass within rounding of a point on the
-// body.
-std::vector<MeridianNormal> normals_at(const Generatrix& generatrix, double r, double z) {
+// body: the first three of them.
+using FewNormals = boost::container::static_vector<MeridianNormal, 3>;
+FewNormals normals_at(const Generatrix& generatrix, double r, double z) {
   constexpr double kNear = 1e-7;  // mm
-  std::vector<MeridianNormal> normals;
+  FewNormals normals;
   const auto add = [&](const GeneratrixSegment& s) {
+    if (normals.size() == normals.capacity()) return;
     const MeridianPoint along{s.to.r - s.from.r, s.to.z - s.from.z};
     const double length = std::hypot(along.r, along.z);
     MeridianNormal n{along.z / length, -along.r / length};
@@ -46,7 +48,7 @@ std::vector<MeridianNormal> normals_at(const Generatrix& generatrix, double r, d
 std::optional<MeridianNormal> rim_normal(const Generatrix& generatrix, double r, double z,
                                          const MeridianNormal& motion) {
   constexpr double kSmooth = 1e-5;  // rad, where arcs and lines go on into each other
-  const std::vector<MeridianNormal> faces = normals_at(generatrix, r, z);
+  const FewNormals faces = normals_at(generatrix, r, z);
   if (faces.size() != 2) return std::nullopt;
   const MeridianNormal &a = faces.front(), &b = faces.back();
   const double kink = a.across * b.along - a.along * b.across;
