@@ -63,7 +63,7 @@ class Front {
     if (change_ == 0) return -kInfinity;
     return segment == solved_ ? 0.0 : plane().room(from, to);
   }
-  [[nodiscard]] DoubleFour rooms(const LeafMotions& leaf) {
+  [[nodiscard]] DoubleFour rooms(const LeafMotions& leaf, const RaySpan&) {
     if (change_ == 0) return four_of(-kInfinity);
     DoubleFour rooms = plane().rooms(leaf.motions, kSearchTolerance);
     for (std::size_t lane = 0; lane < leaf.count; ++lane) {
@@ -210,17 +210,18 @@ class FrontSearch {
 
   // From a segment along the path to what likely makes the end.
   void climb_from(std::uint32_t segment) {
-    const std::uint32_t likely = climbed(question_, *sweep_.body, segment, true).segment;
+    const std::uint32_t likely = climbed(question_, sweep_, segment, true).segment;
     search_.solve_parts(likely);
     if (!goal_.moved() || goal_.end().segment != likely) return;
-    if (const auto next = next_at(question_, likely, goal_.end().t)) search_.solve_parts(*next);
+    if (const auto next = next_at(question_, sweep_, likely, goal_.end().t))
+      search_.solve_parts(*next);
   }
 
   // On to what likely is at a point, and from there along the path.
   void descend_to(const Vec3& point) {
     const auto there = likely_segment_at(point, question_, sweep_);
     if (!there) return;
-    const ClimbTop likely = climbed(question_, *sweep_.body, *there, true);
+    const ClimbTop likely = climbed(question_, sweep_, *there, true);
     search_.take_likely(likely.segment, likely.t);
   }
 

@@ -73,7 +73,7 @@ class GroupSearch {
   template <class IsMet>
   void run_until(const IsMet& is_met) {
     for (Candidate next; !is_met() && take_best(next);) {
-      if (goal_.change() == next.change || goal_.wants(next.group, next.counted)) visit(next.group);
+      if (goal_.change() == next.change || goal_.wants(next.group, next.counted)) visit(next);
     }
   }
   void finish() {
@@ -270,26 +270,26 @@ class GroupSearch {
     return reach;
   }
 
-  void visit(std::uint32_t index) {
-    const GroupQuad& groups = quads_[index / kSiblings];
-    const std::uint32_t next = groups.next[index % kSiblings];
-    const std::size_t count = groups.count[index % kSiblings];
+  void visit(const Candidate& at) {
+    const GroupQuad& groups = quads_[at.group / kSiblings];
+    const std::uint32_t next = groups.next[at.group % kSiblings];
+    const std::size_t count = groups.count[at.group % kSiblings];
     if (count == 0) {
       consider(next);
       return;
     }
-    solve_leaf(index, sweep_.tree.segments().subspan(next, count));
+    solve_leaf(at, sweep_.tree.segments().subspan(next, count));
   }
 
   // Those that go deepest into what is not covered come first: they hold back the others.
-  void solve_leaf(std::uint32_t index, std::span<const std::uint32_t> segments) {
+  void solve_leaf(const Candidate& asked, std::span<const std::uint32_t> segments) {
     struct Open {
       double room;
       std::uint32_t segment;
     };
     const LeafMotions leaf = motions_of(segments);
     if (leaf.count == 0) return;
-    const DoubleFour rooms = goal_.rooms(leaf);
+    const DoubleFour rooms = goal_.rooms(leaf, asked.counted);
     std::array<Open, kMostInLeaf> open;
     std::size_t count = 0;
     for (std::size_t lane = 0; lane < leaf.count; ++lane) {
@@ -301,7 +301,8 @@ class GroupSearch {
     }
     const int change = goal_.change();
     for (std::size_t i = 0; i < count; ++i) {
-      if (goal_.change() == change || room_of(open[i].segment) < 0.0) solve(index, open[i].segment);
+      if (goal_.change() == change || room_of(open[i].segment) < 0.0)
+        solve(asked.group, open[i].segment);
     }
   }
 
@@ -332,7 +333,7 @@ class GroupSearch {
     if ((Goal::kSolvesWhole || goal_.change() == 0) && is_away(group, motion)) return;
     if (!Goal::kSolvesWhole)
       fetch(&question_.path->blocks[question_.path->segments[segment].block], 1);
-    solve_parts(segment, motion);
+    if (std::ranges::find(solved_, segment) == solved_.end()) solve_parts(segment, motion);
     const auto sections = sweep_.body->sections();
     if (parts_.size() == sections.size()) return;
     if (ConcaveSweep(*sweep_.body, motion, question_.ray).slides()) {
@@ -362,6 +363,7 @@ class GroupSearch {
   }
 
   void solve_parts(std::uint32_t segment, const SegmentMotion& motion) {
+    solved_.push_back(segment);
     for (std::uint32_t i = 0; i < parts_.size(); ++i) {
       found_.clear();
       append_swept_intervals(parts_[i], motion, question_.ray, goal_.floors(), found_);
@@ -471,6 +473,8 @@ class GroupSearch {
   boost::container::small_vector<Candidate, 32> open_{};  // a heap by promise
   Candidate best_{};
   bool has_best_ = false;
+  // Of these the goal has what the parts cover.
+  boost::container::small_vector<std::uint32_t, 16> solved_{};
   FewSegmentIntervals found_{};
   std::vector<Gap> gaps_{}, covered_{};
   std::vector<RayGap> near_{};

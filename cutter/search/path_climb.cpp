@@ -13,6 +13,13 @@ namespace {
 // More would be another pass of the cutter.
 constexpr std::int64_t kFarthest = 256;
 
+// Blocks are looked at only where there are other tools: those of long programs are far away.
+bool are_of_one_tool(const kinematics::ToolPath& path, const ToolSweep& sweep, std::uint32_t a,
+                     std::uint32_t b) {
+  if (a == b || sweep.tree.segments().size() == path.segments.size()) return true;
+  return path.blocks[path.segments[a].block].tool == path.blocks[path.segments[b].block].tool;
+}
+
 class Climb {
  public:
   Climb(const RayQuestion& question, const Body& body, std::uint32_t segment, bool leaving)
@@ -20,7 +27,7 @@ class Climb {
 
   [[nodiscard]] ClimbTop top() const {
     Place before = at(0), best = at(1);
-    if (before.depth == -kInfinity && best.depth == -kInfinity) return {segment_, 0.0};
+    if (before.depth == -kInfinity && best.depth == -kInfinity) return {segment_, 0.0, false};
     const std::int64_t sense = best.depth > before.depth ? 1 : -1;
     if (sense < 0) std::swap(before, best);
     Place beyond = at(best.pose + sense);
@@ -87,9 +94,9 @@ class Climb {
     const bool is_after = after.depth > before.depth;
     const double t = std::clamp(top_of(before, best, after).value_or(0.0), -1.0, 1.0);
     const auto segment = segment_at(is_after ? best.pose : best.pose - 1);
-    if (segment) return {*segment, is_after ? std::max(t, 0.0) : 1.0 + std::min(t, 0.0)};
+    if (segment) return {*segment, is_after ? std::max(t, 0.0) : 1.0 + std::min(t, 0.0), true};
     const auto other = segment_at(best.pose);
-    return other ? ClimbTop{*other, 0.0} : ClimbTop{segment_, 0.0};
+    return {other.value_or(segment_), 0.0, true};
   }
   // A pose between a and c, but b: where the top seems to be, or `half` way on the longer side.
   [[nodiscard]] static std::int64_t between(const Place& a, const Place& b, const Place& c,
@@ -141,7 +148,8 @@ class Climb {
 
 }  // namespace
 
-std::optional<std::uint32_t> next_at(const RayQuestion& question, std::uint32_t segment, double t) {
+std::optional<std::uint32_t> next_at(const RayQuestion& question, const ToolSweep& sweep,
+                                     std::uint32_t segment, double t) {
   if ((t != 0.0 && t != 1.0) || (t == 0.0 && segment == 0)) return std::nullopt;
   const kinematics::ToolPath& path = *question.path;
   const std::uint32_t next = t == 0.0 ? segment - 1 : segment + 1;
@@ -149,19 +157,15 @@ std::optional<std::uint32_t> next_at(const RayQuestion& question, std::uint32_t 
   const auto &here = path.segments[segment], &there = path.segments[next];
   const bool runs_on =
       t == 0.0 ? there.first_pose + 1 == here.first_pose : here.first_pose + 1 == there.first_pose;
-  if (!runs_on || path.blocks[there.block].tool != path.blocks[here.block].tool)
-    return std::nullopt;
+  if (!runs_on || !are_of_one_tool(path, sweep, segment, next)) return std::nullopt;
   return next;
 }
 
-ClimbTop climbed(const RayQuestion& question, const Body& body, std::uint32_t segment,
+ClimbTop climbed(const RayQuestion& question, const ToolSweep& sweep, std::uint32_t segment,
                  bool leaving) {
-  const kinematics::ToolPath& path = *question.path;
-  const ClimbTop top = Climb(question, body, segment, leaving).top();
-  if (top.segment == segment) return top;
-  const bool is_same_tool = path.blocks[path.segments[top.segment].block].tool ==
-                            path.blocks[path.segments[segment].block].tool;
-  return is_same_tool ? top : ClimbTop{segment, 0.0};
+  const ClimbTop top = Climb(question, *sweep.body, segment, leaving).top();
+  if (are_of_one_tool(*question.path, sweep, top.segment, segment)) return top;
+  return {segment, 0.0, false};
 }
 
 }  // namespace frustum::cutter

@@ -18,14 +18,16 @@ namespace frustum::cutter {
 struct ClimbTop {
   std::uint32_t segment = 0;
   double t = 0.0;
+  bool meets = false;  // the ray, where it was asked
 };
 // `leaving`: what is covered is before the end, else after it.
-[[nodiscard]] ClimbTop climbed(const RayQuestion& question, const Body& body, std::uint32_t segment,
-                               bool leaving);
+[[nodiscard]] ClimbTop climbed(const RayQuestion& question, const ToolSweep& sweep,
+                               std::uint32_t segment, bool leaving);
 
 // The segment that goes on from an end of this one, where the cutter makes an end of what is
 // covered at that time; nothing between its poses, or where the path does not run on.
 [[nodiscard]] std::optional<std::uint32_t> next_at(const RayQuestion& question,
-                                                   std::uint32_t segment, double t);
+                                                   const ToolSweep& sweep, std::uint32_t segment,
+                                                   double t);
 
 }  // namespace frustum::cutter

@@ -70,7 +70,7 @@ class WholeSweptInterval {
     })[0];
     return held ? 0.0 : -1.0;
   }
-  [[nodiscard]] DoubleFour rooms(const LeafMotions& leaf) {
+  [[nodiscard]] DoubleFour rooms(const LeafMotions& leaf, const RaySpan&) {
     const Held held = between([&](const SeparatingPlane& end) {
       const DoubleFour room = end.rooms(leaf.motions, kSearchTolerance);
       return Held{room[0] >= 0.0, room[1] >= 0.0, room[2] >= 0.0, room[3] >= 0.0};

@@ -8,6 +8,7 @@
 #include "core/constants.hpp"
 #include "cutter/search/group_search.hpp"
 #include "cutter/search/path_climb.hpp"
+#include "cutter/search/pose_descent.hpp"
 #include "cutter/search/ray_fans.hpp"
 #include "cutter/search/tile_cover.hpp"
 #include "cutter/search/whole_sweep.hpp"
@@ -168,16 +169,17 @@ class TileSearch {
                  {chord->hi - kInward, anchor.segment, anchor.section, anchor.t, chord->hi_face}});
     }
     if (neighbour) {
-      find_hints(question, swept_[*neighbour]);
+      find_hints(question, question_.rays[*neighbour], swept_[*neighbour]);
       // First what their poses cover, so that ends inside of that need no solution.
       for (const std::uint32_t likely : hints_) search.take_pose(likely);
       for (std::size_t i = 0; i < hints_.size(); ++i) {
         search.solve_parts(hints_[i]);
         const auto t = goal.end_at_pose_of(hints_[i]);
-        const auto next = t ? next_at(question, hints_[i], *t) : std::nullopt;
+        const auto next = t ? next_at(question, sweep_, hints_[i], *t) : std::nullopt;
         if (next && std::ranges::find(hints_, *next) == hints_.end()) search.solve_parts(*next);
       }
     }
+    if (neighbour) fill_gaps(question, swept_[*neighbour].size(), goal, search);
     RayFans held(question, goal, fans);
     search.run(std::span(lists_).subspan(first, last - first),
                [&](std::size_t i) { return held.hold(i); });
@@ -188,15 +190,38 @@ class TileSearch {
     swept_[r] = goal.swept();
   }
 
-  // Segments that likely make the ends of a ray beside one of which this is covered.
-  void find_hints(const RayQuestion& question, std::span<const SweptInterval> beside) {
+  // Poses between the pieces of what is covered, where the ray beside has fewer.
+  void fill_gaps(const RayQuestion& question, std::size_t wanted, WholeSweep& goal,
+                 GroupSearch<WholeSweep>& search) const {
+    for (std::size_t i = 0; i + 1 < goal.known().size() && goal.known().size() > wanted;) {
+      const auto pieces = goal.known();
+      const Vec3 middle = question.ray.at(0.5 * (pieces[i].hi + pieces[i + 1].lo));
+      const auto likely = likely_segment_at(middle, question, sweep_);
+      const int change = goal.change();
+      if (likely) search.take_pose(*likely);
+      if (goal.change() == change) ++i;
+    }
+  }
+
+  // Segments that likely make the ends of a ray beside another, of which this is covered.
+  void find_hints(const RayQuestion& question, const Ray& other,
+                  std::span<const SweptInterval> beside) {
     hints_.clear();
     for (const SweptInterval& c : beside) {
       for (const bool leaving : {false, true}) {
         const SweptIntervalEnd& end = leaving ? c.hi : c.lo;
         if (body_of(end.segment) != sweep_.body) continue;
-        const std::uint32_t likely = climbed(question, *sweep_.body, end.segment, leaving).segment;
-        if (std::ranges::find(hints_, likely) == hints_.end()) hints_.push_back(likely);
+        ClimbTop top = climbed(question, sweep_, end.segment, leaving);
+        for (const double share : {0.0, 0.5, 1.0}) {
+          if (top.meets) break;
+          const double at = std::lerp(end.s, 0.5 * (c.lo.s + c.hi.s), share);
+          const auto there = likely_segment_at(
+              question.ray.at(question.ray.direction.dot(other.at(at) - question.ray.origin)),
+              question, sweep_);
+          if (there) top = climbed(question, sweep_, *there, leaving);
+        }
+        if (!top.meets) continue;
+        if (std::ranges::find(hints_, top.segment) == hints_.end()) hints_.push_back(top.segment);
       }
     }
   }

@@ -25,6 +25,15 @@ constexpr double kGrazingEnd = 0.02;
 // Of a place that is `depth` on the way out of what is covered.
 double step_of(double depth) { return std::floor(depth * (1.0 / kSearchTolerance)); }
 
+// What is so far before an end, or after it, says nothing of it.
+constexpr double kClear = 4.0 * kSearchTolerance;
+bool all_before(const QuadSpan& in_box, double s) {
+  return std::ranges::all_of(in_box.hi, [&](double hi) { return hi < s - kClear; });
+}
+bool all_after(const QuadSpan& in_box, double s) {
+  return std::ranges::all_of(in_box.lo, [&](double lo) { return lo > s + kClear; });
+}
+
 double depth_of(const SweptIntervalEnd& end, bool leaving) { return leaving ? end.s : -end.s; }
 
 }  // namespace
@@ -165,11 +174,11 @@ QuadLimit WholeSweep::limit(const GroupQuad& groups, const QuadSpan& in_box) {
     // What the nearer end does not hold back, the other mostly does.
     Held hi, lo;
     const auto ask_hi = [&] {
-      if (c.hi.at.s < span().hi) hi = held_by(c.hi, groups, true);
+      if (c.hi.at.s < span().hi && !all_before(in_box, c.hi.at.s)) hi = held_by(c.hi, groups, true);
       return hi.any();
     };
     const auto ask_lo = [&] {
-      if (c.lo.at.s > span().lo) lo = held_by(c.lo, groups, false);
+      if (c.lo.at.s > span().lo && !all_after(in_box, c.lo.at.s)) lo = held_by(c.lo, groups, false);
       return lo.any();
     };
     const bool is_near_hi = last - c.hi.at.s > c.lo.at.s - first;
@@ -208,13 +217,15 @@ WholeSweep::HeldLanes WholeSweep::held_by(End& end, const LeafMotions& leaf, boo
   return held;
 }
 
-DoubleFour WholeSweep::rooms(const LeafMotions& leaf) {
+DoubleFour WholeSweep::rooms(const LeafMotions& leaf, const RaySpan& counted) {
   DoubleFour rooms = four_of(-1.0);
   for (Piece& c : pieces_) {
     HeldLanes held{true, true, true, true};
-    if (c.hi.at.s < span().hi) held = held_by(c.hi, leaf, true);
+    const bool asks_hi = c.hi.at.s < span().hi && counted.hi >= c.hi.at.s - kClear;
+    const bool asks_lo = c.lo.at.s > span().lo && counted.lo <= c.lo.at.s + kClear;
+    if (asks_hi) held = held_by(c.hi, leaf, true);
     if (std::ranges::none_of(held, std::identity())) continue;
-    if (c.lo.at.s > span().lo) {
+    if (asks_lo) {
       const HeldLanes by_lo = held_by(c.lo, leaf, false);
       for (std::size_t lane = 0; lane < kSiblings; ++lane) held[lane] = held[lane] && by_lo[lane];
     }

@@ -64,7 +64,7 @@ class WholeSweep {
   [[nodiscard]] static double begins_by() { return kInfinity; }
   [[nodiscard]] QuadLimit limit(const GroupQuad& groups, const QuadSpan& in_box);
   [[nodiscard]] double room(std::uint32_t segment, const ToolPose& from, const ToolPose& to);
-  [[nodiscard]] DoubleFour rooms(const LeafMotions& leaf);
+  [[nodiscard]] DoubleFour rooms(const LeafMotions& leaf, const RaySpan& counted);
   [[nodiscard]] std::span<const Chord> known();
   // Solutions of ends that may count do not depend on what is covered already: an end is left
   // inexact only where it is well inside.
