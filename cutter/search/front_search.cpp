@@ -78,7 +78,9 @@ class Front {
   }
   [[nodiscard]] std::span<const Chord> floors() { return known(); }
   void take_solved(const SweptInterval& next) {
+    const int change = change_;
     take(next);
+    if (change_ != change) by_pose_ = false;
     // Of a body with concave sections that is only what its parts cover.
     if (has_concave_) return;
     if (next.hi.s == front_.s && next.hi.segment == front_.segment) solved_ = front_.segment;
@@ -119,6 +121,8 @@ class Front {
   }
 
   [[nodiscard]] bool moved() const { return change_ > 0; }
+  // Some pose of a group got there: what makes the end mostly is near by.
+  [[nodiscard]] bool is_by_pose() const { return by_pose_; }
   [[nodiscard]] const SweptIntervalEnd& end() const { return front_; }
   // Precondition: it has moved.
   [[nodiscard]] const SeparatingPlane& plane() {
@@ -129,6 +133,7 @@ class Front {
  private:
   void move_to(const SweptIntervalEnd& end) {
     front_ = end;
+    by_pose_ = true;
     solved_.reset();
     plane_.reset();
     ++change_;
@@ -162,6 +167,7 @@ class Front {
   std::optional<std::uint32_t> solved_{};  // the segment that the front is an end of
   Chord known_{};
   int change_ = 0;
+  bool by_pose_ = false;
 };
 
 // What fans hold back of a list of groups as the front moves. A fan is made where the front is
@@ -211,7 +217,7 @@ class FrontSearch {
   // From a segment along the path to what likely makes the end.
   void climb_from(std::uint32_t segment) {
     const std::uint32_t likely = climbed(question_, sweep_, segment, true).segment;
-    search_.solve_parts(likely);
+    if (!search_.has_solved(likely)) search_.solve_parts(likely);
     if (!goal_.moved() || goal_.end().segment != likely) return;
     if (const auto next = next_at(question_, sweep_, likely, goal_.end().t))
       search_.solve_parts(*next);
@@ -226,12 +232,16 @@ class FrontSearch {
   }
 
   void ask(std::span<const std::uint32_t> groups, EndFans* fans) {
+    constexpr int kMostClimbs = 4;
+    int change = goal_.change();
+    const auto is_by_pose = [&] { return goal_.change() != change && goal_.is_by_pose(); };
     FrontFans held(goal_, sweep_, groups, fans);
     search_.open(groups, [&](std::size_t i) { return held.hold(i); });
-    if (!goal_.moved()) {
-      // The first pose that covers anything is mostly on the way to what makes the end.
-      search_.run_until([&] { return goal_.moved(); });
-      if (goal_.moved()) climb_from(goal_.end().segment);
+    for (int i = 0; i < kMostClimbs; ++i) {
+      search_.run_until(is_by_pose);
+      if (!is_by_pose()) break;
+      climb_from(goal_.end().segment);
+      change = goal_.change();
     }
     search_.finish();
     while (const auto group = goal_.next_deferred()) search_.run(*group);

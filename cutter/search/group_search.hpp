@@ -92,6 +92,9 @@ class GroupSearch {
   }
   // What the convex parts cover in this segment, whatever is covered already.
   void solve_parts(std::uint32_t segment) { solve_parts(segment, motion_of(segment)); }
+  [[nodiscard]] bool has_solved(std::uint32_t segment) const {
+    return std::ranges::find(solved_, segment) != solved_.end();
+  }
 
  private:
   struct Candidate {
@@ -333,7 +336,7 @@ class GroupSearch {
     if ((Goal::kSolvesWhole || goal_.change() == 0) && is_away(group, motion)) return;
     if (!Goal::kSolvesWhole)
       fetch(&question_.path->blocks[question_.path->segments[segment].block], 1);
-    if (std::ranges::find(solved_, segment) == solved_.end()) solve_parts(segment, motion);
+    if (!has_solved(segment)) solve_parts(segment, motion);
     const auto sections = sweep_.body->sections();
     if (parts_.size() == sections.size()) return;
     if (ConcaveSweep(*sweep_.body, motion, question_.ray).slides()) {

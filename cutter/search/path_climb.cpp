@@ -64,7 +64,7 @@ class Climb {
   // where the top seems to be.
   [[nodiscard]] static std::int64_t ahead(const Place& before, const Place& best,
                                           const Place& beyond, std::int64_t step) {
-    constexpr double kMostGrowth = 16.0;
+    constexpr double kMostGrowth = 64.0;
     const auto top = top_of(before, best, beyond);
     if (!top) return 2 * step;
     const double most = kMostGrowth * static_cast<double>(step);

@@ -172,6 +172,7 @@ class TileSearch {
       find_hints(question, question_.rays[*neighbour], swept_[*neighbour]);
       // First what their poses cover, so that ends inside of that need no solution.
       for (const std::uint32_t likely : hints_) search.take_pose(likely);
+      fill_gaps(question, swept_[*neighbour].size(), goal, search);
       for (std::size_t i = 0; i < hints_.size(); ++i) {
         search.solve_parts(hints_[i]);
         const auto t = goal.end_at_pose_of(hints_[i]);
@@ -179,7 +180,6 @@ class TileSearch {
         if (next && std::ranges::find(hints_, *next) == hints_.end()) search.solve_parts(*next);
       }
     }
-    if (neighbour) fill_gaps(question, swept_[*neighbour].size(), goal, search);
     RayFans held(question, goal, fans);
     search.run(std::span(lists_).subspan(first, last - first),
                [&](std::size_t i) { return held.hold(i); });
