@@ -1,25 +1,29 @@
 #include "core/interval_set.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
 namespace frustum {
 
-IntervalSet::IntervalSet(std::vector<Interval> intervals) {
-  std::erase_if(intervals, [](const Interval& i) { return !(i.lo < i.hi); });
+IntervalSet::IntervalSet(std::vector<Interval> intervals) : intervals_(std::move(intervals)) {
+  std::erase_if(intervals_, [](const Interval& i) { return !(i.lo < i.hi); });
+  if (intervals_.size() < 2) return;
   // Ties are broken by the tag, so that the result does not depend on the order of the input.
-  std::sort(intervals.begin(), intervals.end(), [](const Interval& a, const Interval& b) {
+  std::sort(intervals_.begin(), intervals_.end(), [](const Interval& a, const Interval& b) {
     return std::tie(a.lo, a.lo_tag, a.hi, a.hi_tag) < std::tie(b.lo, b.lo_tag, b.hi, b.hi_tag);
   });
-  for (const Interval& next : intervals) {
-    if (intervals_.empty() || next.lo > intervals_.back().hi) {
-      intervals_.push_back(next);
-    } else if (next.hi > intervals_.back().hi) {
-      intervals_.back().hi = next.hi;
-      intervals_.back().hi_tag = next.hi_tag;
+  auto last = intervals_.begin();
+  for (auto next = std::next(last); next != intervals_.end(); ++next) {
+    if (next->lo > last->hi) {
+      *++last = *next;
+    } else if (next->hi > last->hi) {
+      last->hi = next->hi;
+      last->hi_tag = next->hi_tag;
     }
   }
+  intervals_.erase(std::next(last), intervals_.end());
 }
 
 double IntervalSet::length() const {

@@ -3,6 +3,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -246,14 +247,13 @@ class VertexPlacer {
                    double leave, cutter::SweptNear* near) {
     const DexelGrid& grid = crossings_.grid();
     const auto [i, j, k] = place;
-    std::array<HermiteSample, 12> samples;
-    std::size_t count = 0;
+    boost::container::static_vector<HermiteSample, 12> samples;
     for (int edge = 0; edge < 12; ++edge) {
       if (!cell.crosses(edge) || cell.piece(edge) != piece) continue;
-      samples[count++] = crossings_.sample(crossing(place, edge), cell_edge(edge).axis);
+      samples.push_back(crossings_.sample(crossing(place, edge), cell_edge(edge).axis));
     }
     const BoundingBox box{grid.node(i, j, k), grid.node(i + 1, j + 1, k + 1)};
-    const auto placed = place_vertex(solid, std::span(samples).first(count), box, leave, near);
+    const auto placed = place_vertex(solid, {samples.data(), samples.size()}, box, leave, near);
     // Keeping to the cell is not worth leaving the surface.
     if (leave == 0.0 && placed.kind == VertexKind::averaged) return;
     const std::uint32_t vertex = cell.first_vertex + piece;

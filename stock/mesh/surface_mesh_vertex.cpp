@@ -3,6 +3,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <array>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <optional>
 
@@ -256,17 +257,17 @@ PlacedVertex place_vertex(SolidView solid, std::span<const HermiteSample> sample
   const Vec3 spare = Vec3::Constant(leave * pitch);
   const BoundingBox allowed{cell.min - spare, cell.max + spare};
 
-  std::array<HermiteSample, kMostSamples> known;
-  std::size_t count = std::min(samples.size(), kMostSamples - kHiddenFaces);
-  std::copy_n(samples.begin(), count, known.begin());
+  using Known = boost::container::static_vector<HermiteSample, kMostSamples>;
+  Known known(samples.begin(), samples.begin() + static_cast<std::ptrdiff_t>(std::min(
+                                                     samples.size(), kMostSamples - kHiddenFaces)));
   std::optional<PlacedVertex> first;
   for (std::size_t hidden = 0; hidden <= kHiddenFaces; ++hidden) {
-    std::array<HermiteSample, kMostSamples> drawn = known;
-    const Answer answer = solve(solid, std::span(drawn).first(count), allowed, pitch, near);
+    Known drawn = known;
+    const Answer answer = solve(solid, {drawn.data(), drawn.size()}, allowed, pitch, near);
     if (answer.settled) return answer.placed;
     if (!first) first = answer.placed;
     if (!answer.found) break;
-    known[count++] = *answer.found;
+    known.push_back(*answer.found);
   }
   if (first->kind != VertexKind::averaged) return *first;
   return beside_mean(solid, samples, allowed, pitch, near);
