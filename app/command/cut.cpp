@@ -65,6 +65,10 @@ std::optional<Diagnostic> fault_of(const CutOptions& o) {
                  "give --mesh OUT.stl|.ply|.obj|.3mf|.vtp, --picture OUT.png, "
                  "--removal OUT.csv, --point X,Y,Z or a limit");
   }
+  if (!o.wants_surface() && (o.chord > 0.0 || o.decimate > 0.0)) {
+    return error("missing-option"_id, "--chord and --decimate are for a surface",
+                 "give --mesh OUT.stl|.ply|.obj|.3mf|.vtp, --picture OUT.png or a limit");
+  }
   if (o.polyhedral() && (o.chord > 0.0 || o.decimate > 0.0)) {
     return error("conflicting-options"_id,
                  "--chord and --decimate are for the surface that rays find",

@@ -407,7 +407,9 @@ TEST_F(CutCommandSystem, RefusesAndWritesNothing) {
                                 "--picture part.png --view 10",
                                 "--picture part.png --view 10,91",
                                 "--removal no/such/folder/part.csv",
-                                "--removal part.csv --pitch 1e-4"}) {
+                                "--removal part.csv --pitch 1e-4",
+                                "--removal part.csv --chord 0.1",
+                                "--removal part.csv --decimate 0.1"}) {
     SCOPED_TRACE(arguments);
     const Outcome outcome = run(std::string("cut plate.toml --quiet ") + arguments);
     EXPECT_EQ(outcome.exit_code, 2);
