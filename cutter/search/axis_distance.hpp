@@ -54,6 +54,8 @@ class AxisDistance {
   // Of a square, many times what its rounding is; and of a point's coordinates within kFar (mm).
   static constexpr float kRounding = 4e-6F;
   static constexpr double kFar = 1e4, kMargin = 0.01;
+  // Of poses that turn to all sides: then their axes are far from the middle's anyway.
+  static constexpr float kNoAxis = 1e-3F;
 
   static Floats all(double x) { return Floats{} + static_cast<float>(x); }
   static Floats of(const FloatFour& numbers) {
@@ -65,13 +67,16 @@ class AxisDistance {
   struct Squares {
     Floats of_axis, of_tip;
   };
+  // The axis in the middle is no unit where the poses turn: it is the way up of one millimetre.
   [[nodiscard]] Squares squares_of(const GroupQuad& groups) const {
     const Floats x = x_ - of(groups.tip[0]), y = y_ - of(groups.tip[1]), z = z_ - of(groups.tip[2]);
-    const Floats along = x * of(groups.axis[0]) + y * of(groups.axis[1]) + z * of(groups.axis[2]);
-    const Floats above = along > 0.0F ? along : Floats{};
-    const Floats beyond = along - (above < height_ ? above : height_);
+    const Floats a = of(groups.axis[0]), b = of(groups.axis[1]), c = of(groups.axis[2]);
+    const Floats along = x * a + y * b + z * c, axis2 = a * a + b * b + c * c;
+    const Floats nearest = axis2 > kNoAxis ? along / axis2 : Floats{};
+    const Floats above = nearest > 0.0F ? nearest : Floats{};
+    const Floats height = above < height_ ? above : height_;
     const Floats tip2 = x * x + y * y + z * z;
-    return {tip2 - along * along + beyond * beyond, tip2};
+    return {tip2 - height * (2.0F * along - height * axis2), tip2};
   }
 
   Floats x_, y_, z_, height_, radius_, reach_;

@@ -86,8 +86,11 @@ class Scatter {
   int count_ = 0;
 };
 
+// Out of line: of numbers that it has side by side GCC 12 leaves out that they are rounded.
+[[gnu::noinline]] float single(double x) { return static_cast<float>(x); }
+
 float above(double x) {
-  const auto rounded = static_cast<float>(x);
+  const float rounded = single(x);
   return rounded >= x ? rounded : std::nextafter(rounded, std::numeric_limits<float>::infinity());
 }
 float below(double x) { return -above(-x); }
@@ -106,7 +109,7 @@ struct Range {
   }
 };
 
-Vec3 single(const Vec3& v) { return v.cast<float>().cast<double>(); }
+Vec3 single(const Vec3& v) { return {single(v.x()), single(v.y()), single(v.z())}; }
 
 // Where a group is in the tree.
 struct Place {
@@ -169,10 +172,11 @@ class Builder {
     bool by_place = true;
   };
 
-  // Some of a group's children, side by side in one quad; `known`: how they extend, if known.
+  // Some of a group's children.
   struct Siblings {
     std::uint32_t from = 0, to = 0;
   };
+  // They go side by side into one quad; `known`: which way they extend, if that is known.
   void build_children(std::uint32_t quad, const Portion& all, const Siblings& some,
                       const Spread* known, std::uint32_t free) {
     const Portion whole = all.of_children(some.from, some.to);
@@ -199,7 +203,7 @@ class Builder {
   }
 
   [[nodiscard]] Spread spread_of(const Portion& all) const {
-    const auto [first, count, leaf_quads] = all;
+    const std::uint32_t first = all.first, count = all.count;
     Scatter tips, axes;
     const Vec3 centre = from(first).tip;  // keeps the products small
     bool turns = false;
@@ -312,10 +316,10 @@ class Builder {
     const std::size_t lane = place.lane;
     for (int k = 0; k < 3; ++k) {
       const auto d = static_cast<std::size_t>(k);
-      quad.tip[d][lane] = static_cast<float>(middle.tip[k]);
-      quad.axis[d][lane] = static_cast<float>(middle.axis[k]);
-      quad.first_column[d][lane] = static_cast<float>(frame(k, 0));
-      quad.second_column[d][lane] = static_cast<float>(frame(k, 1));
+      quad.tip[d][lane] = single(middle.tip[k]);
+      quad.axis[d][lane] = single(middle.axis[k]);
+      quad.first_column[d][lane] = single(frame(k, 0));
+      quad.second_column[d][lane] = single(frame(k, 1));
       quad.tip_half[d][lane] = above(tip_half[k] + tip_rounding);
       quad.axis_half[d][lane] =
           one_axis ? 0.0F : above(axis_half[k] + 1.001 * sagitta + kAxisRounding);

@@ -8,7 +8,7 @@
 //            swept volume, which overlaps all its neighbours
 // Units    : mm; frame: workpiece
 // Shape    : each group is halved, and the halves again: four siblings side by side, up to four
-//            segments a leaf, the lower groups filled; 45 bytes a segment of a long program
+//            segments a leaf, the lower groups filled; 47 bytes a segment of a long program
 // Errors   : none
 // Accuracy : bounds hold within rounding (1e-12 mm)
 // Threads  : built on all cores; the same bits for any number of them

@@ -27,11 +27,17 @@ double step_of(double depth) { return std::floor(depth * (1.0 / kSearchTolerance
 
 // What is so far before an end, or after it, says nothing of it.
 constexpr double kClear = 4.0 * kSearchTolerance;
-bool all_before(const QuadSpan& in_box, double s) {
-  return std::ranges::all_of(in_box.hi, [&](double hi) { return hi < s - kClear; });
+bool all_before(const GroupQuad& groups, const QuadSpan& in_box, double s) {
+  for (std::size_t lane = 0; lane < kSiblings; ++lane) {
+    if (!groups.is_free(lane) && !(in_box.hi[lane] < s - kClear)) return false;
+  }
+  return true;
 }
-bool all_after(const QuadSpan& in_box, double s) {
-  return std::ranges::all_of(in_box.lo, [&](double lo) { return lo > s + kClear; });
+bool all_after(const GroupQuad& groups, const QuadSpan& in_box, double s) {
+  for (std::size_t lane = 0; lane < kSiblings; ++lane) {
+    if (!groups.is_free(lane) && !(in_box.lo[lane] > s + kClear)) return false;
+  }
+  return true;
 }
 
 double depth_of(const SweptIntervalEnd& end, bool leaving) { return leaving ? end.s : -end.s; }
@@ -166,6 +172,7 @@ QuadLimit WholeSweep::limit(const GroupQuad& groups, const QuadSpan& in_box) {
     // What is elsewhere on the ray may be held back as well, but rarely is.
     double first = kInfinity, last = -kInfinity;
     for (std::size_t lane = 0; lane < kSiblings; ++lane) {
+      if (groups.is_free(lane)) continue;
       if (!(in_box.lo[lane] <= c.hi.at.s && in_box.hi[lane] >= c.lo.at.s)) continue;
       first = std::min(first, in_box.lo[lane]);
       last = std::max(last, in_box.hi[lane]);
@@ -174,11 +181,13 @@ QuadLimit WholeSweep::limit(const GroupQuad& groups, const QuadSpan& in_box) {
     // What the nearer end does not hold back, the other mostly does.
     Held hi, lo;
     const auto ask_hi = [&] {
-      if (c.hi.at.s < span().hi && !all_before(in_box, c.hi.at.s)) hi = held_by(c.hi, groups, true);
+      if (c.hi.at.s < span().hi && !all_before(groups, in_box, c.hi.at.s))
+        hi = held_by(c.hi, groups, true);
       return hi.any();
     };
     const auto ask_lo = [&] {
-      if (c.lo.at.s > span().lo && !all_after(in_box, c.lo.at.s)) lo = held_by(c.lo, groups, false);
+      if (c.lo.at.s > span().lo && !all_after(groups, in_box, c.lo.at.s))
+        lo = held_by(c.lo, groups, false);
       return lo.any();
     };
     const bool is_near_hi = last - c.hi.at.s > c.lo.at.s - first;
