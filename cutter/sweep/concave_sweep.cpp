@@ -122,8 +122,9 @@ double ConcaveSweep::least_between(const Look& a, const Look& b, double reach,
   const double radius = std::min(a.place.r, b.place.r) - 0.5 * moved;
   if (!(radius > 0.0)) return least;
   const double aside = std::min(moved, moved * moved / (8.0 * radius) + bulge) + reach;
-  return std::max(least, clearance_along(body_.generatrix(), a.place, b.place, aside) - climb -
-                             bulge + kOnSurface);
+  const double clear = clearance_along(body_.generatrix(), a.place, b.place, aside);
+  if (!(clear > 0.0)) return least;  // it may pass the surface
+  return std::max(least, clear - climb - bulge + kOnSurface);
 }
 double ConcaveSweep::least_beside(const Look& at, double reach) const {
   return least_between(at, at, reach, -kInfinity);

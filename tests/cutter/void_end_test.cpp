@@ -76,6 +76,38 @@ TEST_P(ConcaveVoidEndLaws, TheVoidEndsWhereTheWholeCoverDoes) {
   expect_void_ends_with_the_cover(kind_named(GetParam()).cutter, 8, 60, kSame, 60);
 }
 
+// Level rays beside an upright cutter that goes straight, from anywhere in what it cuts.
+TEST_P(ConcaveVoidEndLaws, LevelRaysAlongAStrokeEndWhereTheCoverDoes) {
+  constexpr double kSame = 1e-6, kStroke = 24.0;  // mm
+  const cutter::Cutter& tool = kind_named(GetParam()).cutter;
+  int led_on = 0;
+  for (const double turn : {0.0, 0.4}) {
+    const Vec3 feed(std::cos(turn), std::sin(turn), 0.0), beside(-feed.y(), feed.x(), 0.0);
+    const auto swept = SweptCutter::sweep(path_through({{-0.5 * kStroke * feed, Vec3::UnitZ()},
+                                                        {0.5 * kStroke * feed, Vec3::UnitZ()}}),
+                                          {{1, tool}});
+    ASSERT_TRUE(swept);
+    for (const double share : {0.05, 0.3, 0.6, 0.8, 0.9, 0.95}) {
+      for (const double height : {0.02, 0.1, 0.5, 2.0}) {
+        const Vec3 at = share * tool.body().max_radius() * beside + height * Vec3::UnitZ();
+        for (const Ray& ray : {Ray{at - 40.0 * feed, feed}, Ray{at - 40.0 * beside, beside},
+                               Ray{at - 40.0 * Vec3::UnitX(), Vec3::UnitX()}}) {
+          const IntervalSet cover = swept->along(ray, {0.0, 80.0});
+          for (const Interval& cut : cover.intervals()) {
+            for (int k = 0; k < 20; ++k, ++led_on) {
+              const double from = cut.lo + (cut.hi - cut.lo) * (k + 0.5) / 20.0;
+              const auto end = swept->end_of_void(ray, from, 80.0);
+              ASSERT_TRUE(end) << share << ' ' << height << ' ' << k;
+              ASSERT_NEAR(end->s, cut.hi, kSame) << share << ' ' << height << ' ' << k;
+            }
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(led_on, 1000);
+}
+
 // A hollow end that comes down a ramp: the rim that trails cuts deepest, and a probe from above
 // meets what that left, not what the part above the hollow did.
 TEST(ConcaveVoidEnd, IsWhatTheTrailingRimOfAHollowEndLeaves) {
