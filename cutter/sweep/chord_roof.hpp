@@ -35,9 +35,7 @@ inline double bulge_of(const RoofSide& side, const SegmentMotion& motion, double
   return along > 0.0 ? std::max(departure / along, kNoBulge) : kInfinity;
 }
 
-// Below what an end of the chord stays between two moments x = 0 and 1: both planes that touch it
-// there, moved to the other moment, make straight lines, and turning adds at most 4 bulge x (1 -
-// x).
+// Over times x from 0 to 1: turning adds at most 4 bulge x (1 - x).
 class Roof {
  public:
   Roof(const TangentPlane& a, PlaneCrossing a_at_b, const TangentPlane& b, PlaneCrossing b_at_a,

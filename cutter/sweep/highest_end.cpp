@@ -21,6 +21,8 @@ constexpr double kOnEdge = 1e-9;
 constexpr double kPoint = 1e-6;
 // The ray passes through an edge that it is this near to (mm): rounding is less.
 constexpr double kInEdge = 1e-12;
+// Nearer to its circle than this an end is on an edge (mm): less than kSearchTolerance.
+constexpr double kAtEdge = 1e-11;
 
 // A circle where two faces of the profile meet.
 struct EdgeCircle {
@@ -90,16 +92,14 @@ void HighestEnd::search(const ChordSample& from, const ChordSample& to) {
   if (floor_ == kInfinity) {
     offer(from);
   } else {
-    close_in(touched(from), touched(to), 0);
-    come_to_edge();
+    look(touched(from), touched(to));
   }
 }
 
 std::pair<TangentPlane, TangentPlane> HighestEnd::search_with_planes(const ChordSample& from,
                                                                      const ChordSample& to) {
   const Touched a = touched(from), b = touched(to);
-  close_in(a, b, 0);
-  come_to_edge();
+  look(a, b);
   return {a.plane, b.plane};
 }
 
@@ -114,6 +114,10 @@ void HighestEnd::search_joined(const ChordSample& from, const ChordSample& to) {
     note(b);
     return;
   }
+  look(a, b);
+}
+
+void HighestEnd::look(const Touched& a, const Touched& b) {
   close_in(a, b, 0);
   come_to_edge();
 }
@@ -205,7 +209,7 @@ std::optional<HighestEnd::Touched> HighestEnd::edge_top_between(const Touched& a
   const Facing before = body_.facing(a.face, top.pose, point);
   const Facing after = body_.facing(b.face, top.pose, point);
   const double rho = before.side.dot(point - top.pose.tip);
-  if (!(std::hypot(rho - edge->radius, height - edge->height) < kOnEdge)) return std::nullopt;
+  if (!(std::hypot(rho - edge->radius, height - edge->height) < kAtEdge)) return std::nullopt;
   const Vec3 velocity = motion_.velocity(point, *t);
   const double outwards = before.side.dot(velocity), up = axis.dot(velocity);
   const double rise = before.lateral * outwards + before.axial * up;

@@ -70,6 +70,7 @@ class HighestEnd {
     best_face_ = face;
   }
 
+  void look(const Touched& a, const Touched& b);
   // `is_sought`: a top between them has been looked for.
   void close_in(const Touched& a, const Touched& b, int depth, bool is_sought = false);
   [[nodiscard]] bool stays_below_floor(const Touched& a, const Touched& b) const;

@@ -1,16 +1,14 @@
 // A ray against a convex cutter moving over one segment of tool path: the exact covered intervals.
 //
 // Model    : at time t in [0, 1] the body meets the ray in [A(t), B(t)] or not at all; over each
-//            connected span of times with a chord the union is [min A, max B]. The plane that
-//            touches the body where the ray leaves it goes with the body and bounds B at all other
-//            times: two such planes close in on the maximum from above while chords close in from
-//            below
+//            connected span of times with a chord the union is [min A, max B], each found as
+//            highest_end.hpp has it
 // Units    : mm; frame: workpiece
 // Errors   : none; degenerate motions (no motion, pure rotation, ray along the motion) are ordinary
 // Accuracy : ends within 0.001 nm normal to the swept surface: proven by the planes, not sampled. A
 //            span of times without a chord is proven empty by separating planes down to a
 //            penetration of 0.5 nm
-// Source   : envelope condition of swept volumes; Kelley 1960 (cutting planes) in one dimension
+// Source   : ours; highest_end.hpp has that of the ends
 #pragma once
 
 #include <boost/container/small_vector.hpp>
