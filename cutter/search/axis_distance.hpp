@@ -54,8 +54,8 @@ class AxisDistance {
   // Of a square, many times what its rounding is; and of a point's coordinates within kFar (mm).
   static constexpr float kRounding = 4e-6F;
   static constexpr double kFar = 1e4, kMargin = 0.01;
-  // Of poses that turn to all sides: then their axes are far from the middle's anyway.
-  static constexpr float kNoAxis = 1e-3F;
+  // Shorter axes say nothing of a height, and need not: all of their line is in one place.
+  static constexpr float kNoAxis = 1e-12F;
 
   static Floats all(double x) { return Floats{} + static_cast<float>(x); }
   static Floats of(const FloatFour& numbers) {
@@ -67,7 +67,7 @@ class AxisDistance {
   struct Squares {
     Floats of_axis, of_tip;
   };
-  // The axis in the middle is no unit where the poses turn: it is the way up of one millimetre.
+  // The line in the middle is tip + height * axis: where the poses turn that axis is no unit.
   [[nodiscard]] Squares squares_of(const GroupQuad& groups) const {
     const Floats x = x_ - of(groups.tip[0]), y = y_ - of(groups.tip[1]), z = z_ - of(groups.tip[2]);
     const Floats a = of(groups.axis[0]), b = of(groups.axis[1]), c = of(groups.axis[2]);

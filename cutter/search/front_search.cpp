@@ -121,7 +121,7 @@ class Front {
   }
 
   [[nodiscard]] bool moved() const { return change_ > 0; }
-  // Some pose of a group got there: what makes the end mostly is near by.
+  // A pose of a group, or of an interval ahead, got there last, not a solution.
   [[nodiscard]] bool is_by_pose() const { return by_pose_; }
   [[nodiscard]] const SweptIntervalEnd& end() const { return front_; }
   // Precondition: it has moved.
@@ -203,7 +203,8 @@ class FrontFans {
   int change_ = 0;
 };
 
-// Segments are asked first, the groups then.
+// Segments that are likely are asked first, then groups, and from where one of these gets farther
+// the path along.
 class FrontSearch {
  public:
   FrontSearch(const RayQuestion& question, const ToolSweep& sweep, double gap,
@@ -219,8 +220,8 @@ class FrontSearch {
     const std::uint32_t likely = climbed(question_, sweep_, segment, true).segment;
     if (!search_.has_solved(likely)) search_.solve_parts(likely);
     if (!goal_.moved() || goal_.end().segment != likely) return;
-    if (const auto next = next_at(question_, sweep_, likely, goal_.end().t))
-      search_.solve_parts(*next);
+    const auto next = next_at(question_, sweep_, likely, goal_.end().t);
+    if (next && !search_.has_solved(*next)) search_.solve_parts(*next);
   }
 
   // On to what likely is at a point, and from there along the path.
@@ -232,7 +233,7 @@ class FrontSearch {
   }
 
   void ask(std::span<const std::uint32_t> groups, EndFans* fans) {
-    constexpr int kMostClimbs = 4;
+    constexpr int kMostClimbs = 4;  // other passes that the front may come to one by one
     int change = goal_.change();
     const auto is_by_pose = [&] { return goal_.change() != change && goal_.is_by_pose(); };
     FrontFans held(goal_, sweep_, groups, fans);

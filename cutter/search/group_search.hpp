@@ -285,27 +285,27 @@ class GroupSearch {
   }
 
   // Those that go deepest into what is not covered come first: they hold back the others.
-  void solve_leaf(const Candidate& asked, std::span<const std::uint32_t> segments) {
+  void solve_leaf(const Candidate& at, std::span<const std::uint32_t> segments) {
     struct Open {
       double room;
       std::uint32_t segment;
     };
     const LeafMotions leaf = motions_of(segments);
     if (leaf.count == 0) return;
-    const DoubleFour rooms = goal_.rooms(leaf, asked.counted);
+    const DoubleFour rooms = goal_.rooms(leaf, at.counted);
     std::array<Open, kMostInLeaf> open;
     std::size_t count = 0;
     for (std::size_t lane = 0; lane < leaf.count; ++lane) {
       if (rooms[lane] >= 0.0) continue;
       const double room = leaf.segments[lane] == likely_ ? -kInfinity : rooms[lane];
-      std::size_t at = count++;
-      for (; at > 0 && open[at - 1].room > room; --at) open[at] = open[at - 1];
-      open[at] = {room, leaf.segments[lane]};
+      std::size_t place = count++;
+      for (; place > 0 && open[place - 1].room > room; --place) open[place] = open[place - 1];
+      open[place] = {room, leaf.segments[lane]};
     }
     const int change = goal_.change();
     for (std::size_t i = 0; i < count; ++i) {
       if (goal_.change() == change || room_of(open[i].segment) < 0.0)
-        solve(asked.group, open[i].segment);
+        solve(at.group, open[i].segment);
     }
   }
 
@@ -476,7 +476,7 @@ class GroupSearch {
   boost::container::small_vector<Candidate, 32> open_{};  // a heap by promise
   Candidate best_{};
   bool has_best_ = false;
-  // Of these the goal has what the parts cover.
+  // Of these the goal has what the parts cover, or needs it no more.
   boost::container::small_vector<std::uint32_t, 16> solved_{};
   FewSegmentIntervals found_{};
   std::vector<Gap> gaps_{}, covered_{};

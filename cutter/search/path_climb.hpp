@@ -3,7 +3,7 @@
 // Model    : along the path to the pose whose cutter reaches farthest along the ray, by parabolas
 //            through the last three. A guess: what it says is solved and proven by the search
 // Units    : mm along the ray; frame: workpiece
-// Errors   : none; the segment itself where its cutter does not meet the ray
+// Errors   : none; the segment itself, and `meets` false, where it leads to none that meets the ray
 // Source   : ours
 #pragma once
 
@@ -18,7 +18,7 @@ namespace frustum::cutter {
 struct ClimbTop {
   std::uint32_t segment = 0;
   double t = 0.0;
-  bool meets = false;  // the ray, where it was asked
+  bool meets = false;  // the ray within its span; of this tool
 };
 // `leaving`: what is covered is before the end, else after it.
 [[nodiscard]] ClimbTop climbed(const RayQuestion& question, const ToolSweep& sweep,

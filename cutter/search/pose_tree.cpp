@@ -23,10 +23,10 @@ constexpr std::uint32_t kTask = 4096;
 // So many segments say which way a group extends.
 constexpr std::uint32_t kSampled = 512;
 
-// Quads of leaves are filled as far as they go, and so are the quads over them: only the upper ones
-// have fewer groups than four. So many quads of leaves for so many segments; a leaf needs none.
+// The lower quads have four groups each, only the upper ones fewer. So many quads of leaves for so
+// many segments; a leaf needs none.
 std::uint32_t leaf_quads_of(std::uint32_t segments) {
-  constexpr std::uint32_t kMost = kSiblings * kLeaf;
+  constexpr std::uint32_t kMost = kSiblings * kLeaf;  // of a quad of leaves
   return segments <= kLeaf ? 0 : (segments + kMost - 1) / kMost;
 }
 

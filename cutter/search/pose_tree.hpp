@@ -7,8 +7,8 @@
 //            along a surface is flat, so that the bound is tight: far tighter than a box of the
 //            swept volume, which overlaps all its neighbours
 // Units    : mm; frame: workpiece
-// Shape    : each group is halved, and the halves again: four siblings side by side, up to four
-//            segments a leaf, the lower groups filled; 47 bytes a segment of a long program
+// Shape    : each group is halved, and the halves again: two to four siblings side by side, four in
+//            the lower groups, up to four segments a leaf; 47 bytes a segment of a long program
 // Errors   : none
 // Accuracy : bounds hold within rounding (1e-12 mm)
 // Threads  : built on all cores; the same bits for any number of them

@@ -190,10 +190,10 @@ class TileSearch {
     swept_[r] = goal.swept();
   }
 
-  // Poses between the pieces of what is covered, where the ray beside has fewer.
-  void fill_gaps(const RayQuestion& question, std::size_t wanted, WholeSweep& goal,
+  // Takes poses between the pieces of what is covered, while the ray beside has fewer: so many.
+  void fill_gaps(const RayQuestion& question, std::size_t beside, WholeSweep& goal,
                  GroupSearch<WholeSweep>& search) const {
-    for (std::size_t i = 0; i + 1 < goal.known().size() && goal.known().size() > wanted;) {
+    for (std::size_t i = 0; i + 1 < goal.known().size() && goal.known().size() > beside;) {
       const auto pieces = goal.known();
       const Vec3 middle = question.ray.at(0.5 * (pieces[i].hi + pieces[i + 1].lo));
       const auto likely = likely_segment_at(middle, question, sweep_);
@@ -212,6 +212,7 @@ class TileSearch {
         const SweptIntervalEnd& end = leaving ? c.hi : c.lo;
         if (body_of(end.segment) != sweep_.body) continue;
         ClimbTop top = climbed(question, sweep_, end.segment, leaving);
+        // From where the end was to the middle of the piece, which is shorter here.
         for (const double share : {0.0, 0.5, 1.0}) {
           if (top.meets) break;
           const double at = std::lerp(end.s, 0.5 * (c.lo.s + c.hi.s), share);

@@ -7,7 +7,8 @@
 //                             groups, which are there on the ray?
 //   double room(segment, from, to)  do they leave nothing of the segment, which is between these
 //                             poses? Not if it is less than 0, the less the more is left
-//   DoubleFour rooms(leaf, span)  the same of the segments of a leaf, which as it counts is there
+//   DoubleFour rooms(leaf, span)  the same of the segments of a leaf that reach no farther than
+//                             the span, as counted() has it
 //   RaySpan counted(reach)    what of a reach counts, slack and rounding considered
 //   bool wants(group, span)   could this, as it counts, still add anything?
 //   bool wants_lo(lo)         does it matter where a group begins whose representative does there?

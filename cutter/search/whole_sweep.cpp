@@ -25,19 +25,22 @@ constexpr double kGrazingEnd = 0.02;
 // Of a place that is `depth` on the way out of what is covered.
 double step_of(double depth) { return std::floor(depth * (1.0 / kSearchTolerance)); }
 
-// What is so far before an end, or after it, says nothing of it.
+// What is so far before an end, or after it, says nothing of it (mm).
 constexpr double kClear = 4.0 * kSearchTolerance;
-bool all_before(const GroupQuad& groups, const QuadSpan& in_box, double s) {
+
+// Whether a quad has only groups that are so.
+template <class IsSo>
+bool all_groups(const GroupQuad& groups, const IsSo& is_so) {
   for (std::size_t lane = 0; lane < kSiblings; ++lane) {
-    if (!groups.is_free(lane) && !(in_box.hi[lane] < s - kClear)) return false;
+    if (!groups.is_free(lane) && !is_so(lane)) return false;
   }
   return true;
 }
+bool all_before(const GroupQuad& groups, const QuadSpan& in_box, double s) {
+  return all_groups(groups, [&](std::size_t lane) { return in_box.hi[lane] < s - kClear; });
+}
 bool all_after(const GroupQuad& groups, const QuadSpan& in_box, double s) {
-  for (std::size_t lane = 0; lane < kSiblings; ++lane) {
-    if (!groups.is_free(lane) && !(in_box.lo[lane] > s + kClear)) return false;
-  }
-  return true;
+  return all_groups(groups, [&](std::size_t lane) { return in_box.lo[lane] > s + kClear; });
 }
 
 double depth_of(const SweptIntervalEnd& end, bool leaving) { return leaving ? end.s : -end.s; }

@@ -31,6 +31,8 @@ constexpr double kLongestSample = 0.02, kShortestSample = 1e-4;
 // What is less deep than this (mm) is on the surface: else rounding covers a ray that slides along
 // it.
 constexpr double kOnSurface = 1e-10;
+// Clearances are no more than the truth but for this (mm).
+constexpr double kClearanceRounding = 1e-12;
 // Ends are closed in to this along the ray (mm).
 constexpr double kEndTolerance = 1e-11;
 
@@ -118,12 +120,12 @@ double ConcaveSweep::least_between(const Look& a, const Look& b, double reach,
   const double lowest = std::min(a.place.z, b.place.z) - climb - bulge;
   const double least = std::max(0.5 * (a.distance + b.distance - moved) - reach,
                                 std::max(-highest, lowest - body_.height()) + kOnSurface);
-  if (least >= enough || !(a.distance > 0.0 && b.distance > 0.0)) return least;
+  if (least >= enough || !(std::min(a.distance, b.distance) > kOnSurface)) return least;
   const double radius = std::min(a.place.r, b.place.r) - 0.5 * moved;
   if (!(radius > 0.0)) return least;
   const double aside = std::min(moved, moved * moved / (8.0 * radius) + bulge) + reach;
   const double clear = clearance_along(body_.generatrix(), a.place, b.place, aside);
-  if (!(clear > 0.0)) return least;  // it may pass the surface
+  if (!(clear > kClearanceRounding)) return least;  // it may pass the surface
   return std::max(least, clear - climb - bulge + kOnSurface);
 }
 double ConcaveSweep::least_beside(const Look& at, double reach) const {

@@ -40,8 +40,9 @@ std::optional<EdgeCircle> edge_of(const Profile& body, ProfileFace a, ProfileFac
   };
   if (low == kBottomFace && high == 0) return at(0, false);
   if (low == kTopFace && high == last) return at(last, true);
-  if (low >= 0 && high == low + 1) return at(low, true);
-  return std::nullopt;
+  if (low < 0 || high != low + 1) return std::nullopt;
+  const auto edge = at(low, true);
+  return edge ? edge : at(high, false);
 }
 
 // When a ray passes through the circle, between two moments at which it passes the circle's plane
@@ -141,7 +142,8 @@ void HighestEnd::close_in(const Touched& a, const Touched& b, int depth, bool is
   const bool has_edge = is_edge_between(a, b);
   // First of all, so that where a top is does not depend on what is covered.
   if (!is_sought) {
-    is_sought = true;
+    // Where there is an edge that was not come to, the parts may have smooth tops.
+    is_sought = !has_edge;
     const auto top =
         has_edge ? edge_top_between(a, b) : summit_between(a, b, 0.25 * kSearchTolerance);
     if (top) {

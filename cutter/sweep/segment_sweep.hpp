@@ -52,8 +52,8 @@ void append_swept_intervals(const Profile& body, const SegmentMotion& motion, co
                                                            const SegmentMotion& motion,
                                                            const Ray& ray);
 
-// The end of what is swept at s, of those that swept_intervals() finds; nothing where it is not
-// plain that it is the first or the last. Faster than all of them.
+// A moment at which what is swept ends at s, which swept_intervals() has found; nothing where it is
+// not plain that it is the first end or the last. Faster than all of them.
 [[nodiscard]] std::optional<SweptEnd> swept_end_at(const Profile& body, const SegmentMotion& motion,
                                                    const Ray& ray, double s);
 

@@ -266,7 +266,7 @@ PlacedVertex place_vertex(SolidView solid, std::span<const HermiteSample> sample
     const Answer answer = solve(solid, {drawn.data(), drawn.size()}, allowed, pitch, near);
     if (answer.settled) return answer.placed;
     if (!first) first = answer.placed;
-    if (!answer.found) break;
+    if (!answer.found || hidden == kHiddenFaces) break;
     known.push_back(*answer.found);
   }
   if (first->kind != VertexKind::averaged) return *first;

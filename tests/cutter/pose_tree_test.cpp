@@ -148,6 +148,35 @@ TEST(AxisDistance, NeverLeavesACutterAsideThatIsThere) {
   }
 }
 
+// Three ways that a slender cutter stands at one tip: their middle is short, and far from each.
+TEST(AxisDistance, IsThatOfAShortAxisToo) {
+  const auto tool = cutter::Cutter::make({.type = cutter::CutterType::flat,
+                                          .diameter = {0.4},
+                                          .length = {80.0},
+                                          .flute_length = {60.0}});
+  ASSERT_TRUE(tool);
+  constexpr double kDown = -0.5528, kUp = 0.5893;
+  std::vector<ToolPose> poses;
+  for (int k = 0; k < 3; ++k) {
+    Vec3 axis = Vec3::Constant(kUp);
+    axis[k] = kDown;
+    const ToolPose pose{Vec3::Zero(), axis.normalized()};
+    poses.push_back(pose);
+    poses.push_back(pose);
+  }
+  ToolPath path = path_through(poses);
+  std::erase_if(path.segments,
+                [](const kinematics::PathSegment& s) { return s.first_pose % 2 == 1; });
+  const PoseTree tree(path, all_of(path), tool->body());
+  const cutter::GroupQuad& root = tree.quads().front();
+  for (const ToolPose& pose : poses) {
+    for (const double height : {0.5, 10.0, 55.0}) {
+      const Vec3 point = pose.tip + height * pose.axis + 0.15 * perpendicular_to(pose.axis);
+      EXPECT_FALSE(cutter::AxisDistance(point, tool->body()).are_away(root)[0]) << height;
+    }
+  }
+}
+
 // A cutter that leans and stands still, along its axis: the tiles know what single rays do.
 TEST(PoseTree, TilesOfLeaningCuttersAreAsSingleRays) {
   const cutter::Cutter& tool = kind_named("flat").cutter;
