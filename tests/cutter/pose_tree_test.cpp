@@ -170,7 +170,7 @@ TEST(AxisDistance, IsThatOfAShortAxisToo) {
   const PoseTree tree(path, all_of(path), tool->body());
   const cutter::GroupQuad& root = tree.quads().front();
   for (const ToolPose& pose : poses) {
-    for (const double height : {0.5, 10.0, 55.0}) {
+    for (const double height : {0.5, 10.0, 55.0, 59.9}) {
       const Vec3 point = pose.tip + height * pose.axis + 0.15 * perpendicular_to(pose.axis);
       EXPECT_FALSE(cutter::AxisDistance(point, tool->body()).are_away(root)[0]) << height;
     }
