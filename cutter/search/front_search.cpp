@@ -22,7 +22,6 @@ class Front {
       : span_(question.span),
         planes_(planes),
         start_(question.ray.at(front.s), body),
-        has_concave_(!body.concave().empty()),
         gap_(gap),
         front_(front) {}
 
@@ -59,17 +58,13 @@ class Front {
     };
     return {of(0), of(1), of(2), of(3)};
   }
-  [[nodiscard]] double room(std::uint32_t segment, const ToolPose& from, const ToolPose& to) {
+  [[nodiscard]] double room(std::uint32_t, const ToolPose& from, const ToolPose& to) {
     if (change_ == 0) return -kInfinity;
-    return segment == solved_ ? 0.0 : plane().room(from, to);
+    return plane().room(from, to);
   }
   [[nodiscard]] DoubleFour rooms(const LeafMotions& leaf, const RaySpan&) {
     if (change_ == 0) return four_of(-kInfinity);
-    DoubleFour rooms = plane().rooms(leaf.motions, kSearchTolerance);
-    for (std::size_t lane = 0; lane < leaf.count; ++lane) {
-      if (leaf.segments[lane] == solved_) rooms[lane] = 0.0;
-    }
-    return rooms;
+    return plane().rooms(leaf.motions, kSearchTolerance);
   }
 
   [[nodiscard]] std::span<const Chord> known() {
@@ -81,9 +76,6 @@ class Front {
     const int change = change_;
     take(next);
     if (change_ != change) by_pose_ = false;
-    // Of a body with concave sections that is only what its parts cover.
-    if (has_concave_) return;
-    if (next.hi.s == front_.s && next.hi.segment == front_.segment) solved_ = front_.segment;
   }
 
   // What begins beyond the front counts when the front has come there.
@@ -134,7 +126,6 @@ class Front {
   void move_to(const SweptIntervalEnd& end) {
     front_ = end;
     by_pose_ = true;
-    solved_.reset();
     plane_.reset();
     ++change_;
   }
@@ -158,13 +149,11 @@ class Front {
   RaySpan span_;
   const EndPlanes& planes_;
   AxisDistance start_;  // of where the front was at first
-  bool has_concave_;
   double gap_;
   SweptIntervalEnd& front_;
   std::optional<SeparatingPlane> plane_{};  // at the front; made when first asked for
   std::vector<Deferred> deferred_{};
   std::vector<SweptInterval> ahead_{};
-  std::optional<std::uint32_t> solved_{};  // the segment that the front is an end of
   Chord known_{};
   int change_ = 0;
   bool by_pose_ = false;

@@ -107,14 +107,18 @@ TEST(PoseTree, FillsTheLowerGroups) {
   EXPECT_LE(tree.quads().size(), 450U * 3 / 2);
 }
 
+// So thin that nothing but its axis says where it is.
+cutter::Cutter slender_mill(double flutes) {
+  return *cutter::Cutter::make({.type = cutter::CutterType::flat,
+                                .diameter = {0.4},
+                                .length = {flutes + 20.0},
+                                .flute_length = {flutes}});
+}
+
 // Slender cutters that swing, so that the axis in the middle is far from a unit.
 TEST(AxisDistance, NeverLeavesACutterAsideThatIsThere) {
-  const auto tool = cutter::Cutter::make({.type = cutter::CutterType::flat,
-                                          .diameter = {0.4},
-                                          .length = {40.0},
-                                          .flute_length = {20.0}});
-  ASSERT_TRUE(tool);
-  const cutter::Body& body = tool->body();
+  const cutter::Cutter tool = slender_mill(20.0);
+  const cutter::Body& body = tool.body();
   Draw draw(7);
   for (int i = 0; i < 200; ++i) {
     const double swing = draw.decades(1e-3, 1.0), way = draw.between(0.0, 30.0);
@@ -150,11 +154,7 @@ TEST(AxisDistance, NeverLeavesACutterAsideThatIsThere) {
 
 // Three ways that a slender cutter stands at one tip: their middle is short, and far from each.
 TEST(AxisDistance, IsThatOfAShortAxisToo) {
-  const auto tool = cutter::Cutter::make({.type = cutter::CutterType::flat,
-                                          .diameter = {0.4},
-                                          .length = {80.0},
-                                          .flute_length = {60.0}});
-  ASSERT_TRUE(tool);
+  const cutter::Cutter tool = slender_mill(60.0);
   constexpr double kDown = -0.5528, kUp = 0.5893;
   std::vector<ToolPose> poses;
   for (int k = 0; k < 3; ++k) {
@@ -167,12 +167,12 @@ TEST(AxisDistance, IsThatOfAShortAxisToo) {
   ToolPath path = path_through(poses);
   std::erase_if(path.segments,
                 [](const kinematics::PathSegment& s) { return s.first_pose % 2 == 1; });
-  const PoseTree tree(path, all_of(path), tool->body());
+  const PoseTree tree(path, all_of(path), tool.body());
   const cutter::GroupQuad& root = tree.quads().front();
   for (const ToolPose& pose : poses) {
     for (const double height : {0.5, 10.0, 55.0, 59.9}) {
       const Vec3 point = pose.tip + height * pose.axis + 0.15 * perpendicular_to(pose.axis);
-      EXPECT_FALSE(cutter::AxisDistance(point, tool->body()).are_away(root)[0]) << height;
+      EXPECT_FALSE(cutter::AxisDistance(point, tool.body()).are_away(root)[0]) << height;
     }
   }
 }
