@@ -13,7 +13,7 @@ namespace {
 constexpr double kOnAxis = 1e-9;
 
 // Motions that turn by more have no proof (rad).
-constexpr double kFarTurned = 0.05;
+constexpr double kFarTurned = 0.1;
 // From its chord the axis is never farther than turn^2 / 8, and 1.01 is more than the turn has over
 // the chord.
 constexpr double kAxisBend = 1.01 / 8.0;

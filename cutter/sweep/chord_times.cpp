@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "core/constants.hpp"
 #include "cutter/sweep/segment_sweep.hpp"
@@ -25,20 +26,47 @@ double gap_of(const Vec3& normal, const Profile& body, const ToolPose& pose, con
   return normal.dot(ray.origin - pose.tip) - body.support(u);
 }
 
-// A plane along the ray that has the body, on its way from a to b, on its other side but for
-// kMissedDepth? True is a proof; false says nothing. `slack`: by so much the body leaves the
-// straight way between.
-bool surely_apart(const Profile& body, const ToolPose& a, const ToolPose& b, double slack,
-                  const Ray& ray) {
+// Whether the plane along the ray with that normal has the body, on its way from a to b, on its
+// other side but for kMissedDepth. True is a proof. `slack`: by so much the body leaves the straight
+// way between them.
+bool parts(const Vec3& normal, const Profile& body, const ToolPose& a, const ToolPose& b,
+           double slack, const Ray& ray) {
   // Between its ends the gap is (1 - t) A + t B or less by 4 t (1 - t) slack: least where that is
   // A / t + B / (1 - t) = (sqrt A + sqrt B)^2 against 4 slack.
-  const auto apart = [&](const Vec3& normal) {
-    const double at_a = gap_of(normal, body, a, ray) + kMissedDepth;
-    const double at_b = gap_of(normal, body, b, ray) + kMissedDepth;
-    if (!(at_a > 0.0 && at_b > 0.0)) return false;
-    const double roots = std::sqrt(at_a) + std::sqrt(at_b);
-    return roots * roots >= 4.0 * slack;
-  };
+  const double at_a = gap_of(normal, body, a, ray) + kMissedDepth;
+  if (!(at_a > 0.0)) return false;
+  const double at_b = gap_of(normal, body, b, ray) + kMissedDepth;
+  if (!(at_b > 0.0)) return false;
+  const double roots = std::sqrt(at_a) + std::sqrt(at_b);
+  return roots * roots >= 4.0 * slack;
+}
+
+// From where a round end of the profile is about, or the end itself, to the other.
+std::pair<double, double> core_of(const Profile& body) {
+  const Zone &lowest = body.zones().front(), &highest = body.zones().back();
+  const double lo = lowest.kind == ZoneKind::cone ? body.bottom() : lowest.centre;
+  const double hi = highest.kind == ZoneKind::cone ? body.height() : highest.centre;
+  return {std::min(lo, hi), std::max(lo, hi)};
+}
+
+// Across the ray, from the place of the cutter's axis that is nearest to it; about.
+Vec3 away_from_axis(const Profile& body, const ToolPose& pose, const Ray& ray) {
+  const Vec3 m = ray.origin - pose.tip;
+  const Vec3 facing = pose.axis - ray.direction.dot(pose.axis) * ray.direction;
+  const auto [lo, hi] = core_of(body);
+  const double steep2 = facing.squaredNorm();
+  const double height = steep2 > 1e-6 ? std::clamp(m.dot(facing) / steep2, lo, hi) : lo;
+  const Vec3 arm = m - height * pose.axis;
+  const Vec3 across = arm - arm.dot(ray.direction) * ray.direction;
+  const double length = across.norm();
+  return length > 1e-9 ? Vec3(across / length) : perpendicular_to(ray.direction);
+}
+
+// The same of any of some planes that are likely.
+bool surely_apart(const Profile& body, const ToolPose& a, const ToolPose& b, double slack,
+                  const Ray& ray) {
+  const auto apart = [&](const Vec3& normal) { return parts(normal, body, a, b, slack, ray); };
+  if (apart(away_from_axis(body, a, ray))) return true;
   // The plane between the ray and the axis, and the one that faces an end of the cutter.
   const Vec3 across = ray.direction.cross(a.axis);
   const double sine = across.norm();
@@ -55,19 +83,20 @@ bool surely_apart(const Profile& body, const ToolPose& a, const ToolPose& b, dou
 // The best of the planes along the ray: maximises the gap over the angle of its normal.
 SeparatingPlane separate(const Profile& body, const ToolPose& pose, const Ray& ray) {
   const auto gap_at = [&](const Vec3& normal) { return gap_of(normal, body, pose, ray); };
-  const Vec3 e1 = perpendicular_to(ray.direction);
-  const Vec3 e2 = ray.direction.cross(e1);
-  // Every thirty degrees, by their cosines and sines.
+  // Turned by thirty degrees while that is better.
   constexpr double kTall = 0.5 * std::numbers::sqrt3;
-  constexpr std::array<std::array<double, 2>, 3> kQuarter{{{1.0, 0.0}, {kTall, 0.5}, {0.5, kTall}}};
-  SeparatingPlane best{e1, -kInfinity};
-  for (const auto& [c, s] : kQuarter) {
-    for (const Vec3& normal : {Vec3(c * e1 + s * e2), Vec3(c * e2 - s * e1)}) {
-      for (const double side : {1.0, -1.0}) {
-        const double gap = gap_at(side * normal);
-        if (gap > best.gap) best = {side * normal, gap};
-      }
+  SeparatingPlane best{away_from_axis(body, pose, ray), 0.0};
+  best.gap = gap_at(best.normal);
+  for (const double side : {0.5, -0.5}) {
+    bool turns = false;
+    for (int i = 0; i < 6; ++i) {
+      const Vec3 normal = kTall * best.normal + side * ray.direction.cross(best.normal);
+      const double gap = gap_at(normal);
+      if (!(gap > best.gap)) break;
+      best = {normal, gap};
+      turns = true;
     }
+    if (turns) break;
   }
   // Between its neighbours, by the tangent of the angle: to 1e-7, where the gap is flat within
   // rounding.
@@ -81,6 +110,49 @@ SeparatingPlane separate(const Profile& body, const ToolPose& pose, const Ray& r
       [&](double at) { return -gap_at(beside(at)); }, -kTangent, kTangent, kBits);
   return -loss < best.gap ? best : SeparatingPlane{beside(tangent), -loss};
 }
+
+// Where a run of chords ends, by the last three of them: the square of a chord's length falls as
+// time goes on, to 0 where the ray comes to touch the body.
+class RunEnd {
+ public:
+  explicit RunEnd(const ChordSample& first) { take(first); }
+
+  void take(const ChordSample& sample) {
+    last_[2] = last_[1];
+    last_[1] = last_[0];
+    const double length = sample.chord->hi - sample.chord->lo;
+    last_[0] = {sample.t, length * length};
+    if (++count_ < 2) return;
+    const double two = at_by(last_[0], last_[1]);
+    is_expected_ = last_[0].length2 < last_[1].length2;
+    if (count_ == 2) {
+      at_ = two;
+      unsure_ = 0.1 * std::abs(at_ - last_[0].t);
+      return;
+    }
+    const double other = at_by(last_[1], last_[2]);
+    const double share = last_[0].length2 / (last_[2].length2 - last_[0].length2);
+    at_ = two + share * (two - other);
+    unsure_ = 0.2 * std::abs(at_ - two);
+  }
+  [[nodiscard]] bool is_expected() const { return is_expected_; }
+  [[nodiscard]] double at() const { return at_; }
+  [[nodiscard]] double unsure() const { return unsure_; }
+
+ private:
+  struct Known {
+    double t = 0.0, length2 = 0.0;
+  };
+  // Of time as a linear function of the square.
+  [[nodiscard]] static double at_by(const Known& a, const Known& b) {
+    return a.t + (a.t - b.t) * a.length2 / (b.length2 - a.length2);
+  }
+
+  std::array<Known, 3> last_{};
+  int count_ = 0;
+  bool is_expected_ = false;
+  double at_ = 0.0, unsure_ = 0.0;
+};
 
 }  // namespace
 
@@ -163,13 +235,31 @@ void ChordTimes::search_beside_run(const ChordSample& run_end, const ChordSample
   const ChordSample gone = sample(beyond);
   // The ray slides along the body, by rounding in and out: so often and no oftener.
   if (gone.chord && depth > 60) return;
+  const bool stays_away = !gone.chord && leaves_for_good(run_end, gone, outside);
   if (dt > 0.0) {
     samples_.push_back(gone);
-    refine_between(gone, outside, depth + 1);
+    if (!stays_away) refine_between(gone, outside, depth + 1);
   } else {
-    refine_between(outside, gone, depth + 1);
+    if (!stays_away) refine_between(outside, gone, depth + 1);
     samples_.push_back(gone);
   }
+}
+
+// Whether the plane along the ray that touches the body where the run ends parts it from the ray
+// between two samples after that. True is a proof.
+bool ChordTimes::leaves_for_good(const ChordSample& run_end, const ChordSample& gone,
+                                 const ChordSample& outside) const {
+  const Vec3 normal =
+      body_.normal_of(run_end.chord->lo_face, run_end.pose, ray_.at(run_end.chord->lo));
+  const Vec3 across = normal - normal.dot(ray_.direction) * ray_.direction;
+  const double length = across.norm();
+  if (!(length > 1e-3)) return false;
+  return parts(across / length, body_, gone.pose, outside.pose, slack_between(gone, outside), ray_);
+}
+
+double ChordTimes::slack_between(const ChordSample& a, const ChordSample& b) const {
+  const double dt = b.t - a.t;
+  return motion_.bend() * dt * dt / 8.0;
 }
 
 double ChordTimes::resolution() const {
@@ -178,12 +268,30 @@ double ChordTimes::resolution() const {
 
 // The last time with a chord between `inside` (has one) and `outside` (has none).
 ChordSample ChordTimes::end_of_run(ChordSample inside, ChordSample outside) const {
-  const double tolerance = resolution();
-  while (std::abs(outside.t - inside.t) > tolerance) {
-    const double middle_t = 0.5 * (inside.t + outside.t);
-    if (middle_t == inside.t || middle_t == outside.t) break;
-    const ChordSample middle = sample(middle_t);
-    (middle.chord ? inside : outside) = middle;
+  constexpr int kHalvings = 8;  // every so many steps
+  const double tolerance = resolution(), onwards = outside.t > inside.t ? 1.0 : -1.0;
+  RunEnd end(inside);
+  double misses = 1.0;
+  for (int i = 0; std::abs(outside.t - inside.t) > tolerance; ++i) {
+    const double middle = 0.5 * (inside.t + outside.t);
+    if (middle == inside.t || middle == outside.t) break;
+    double t = middle;
+    if (end.is_expected() && i % kHalvings != 0) {
+      // Just before the end, at last just after it; farther from where that was wrong.
+      const double left = onwards * (end.at() - inside.t), least = 0.4 * misses * tolerance;
+      const double margin = std::min(std::max(least, misses * end.unsure()), 0.9 * left);
+      const double aim = inside.t + onwards * (left > tolerance ? left - margin : left + least);
+      if (std::min(inside.t, outside.t) < aim && aim < std::max(inside.t, outside.t)) t = aim;
+    }
+    const ChordSample next = sample(t);
+    if (next.chord) {
+      inside = next;
+      end.take(next);
+      misses = 1.0;
+    } else {
+      outside = next;
+      misses *= 4.0;
+    }
   }
   return inside;
 }
@@ -192,7 +300,7 @@ ChordSample ChordTimes::end_of_run(ChordSample inside, ChordSample outside) cons
 void ChordTimes::search_empty(const ChordSample& a, const ChordSample& b) {
   const double span = b.t - a.t;
   if (0.5 * motion_.travel() * span < kMissedDepth) return;
-  const double slack = motion_.bend() * span * span / 8.0;
+  const double slack = slack_between(a, b);
   if (surely_apart(body_, a.pose, b.pose, slack, ray_)) return;
   const ToolPose middle_pose = motion_.at(0.5 * (a.t + b.t));
   if (!body_.chord(middle_pose, ray_, 0.5 * motion_.travel() * span)) return;

@@ -23,7 +23,7 @@ namespace frustum::cutter {
 // Times where chords begin or end are found to this much motion.
 inline constexpr double kTangentMotion = 1e-9;  // mm
 // The body turns by at most this between two samples of its chord.
-inline constexpr double kTurnPerSample = 0.05;  // rad
+inline constexpr double kTurnPerSample = 0.06;  // rad
 
 struct ChordSample {
   double t = 0.0;
@@ -51,6 +51,10 @@ class ChordTimes {
   void join(const ChordSample& a, const ChordSample& b, int depth);
   [[nodiscard]] double departure(const ChordSample& a, const ChordSample& b) const;
   void search_beside_run(const ChordSample& run_end, const ChordSample& outside, int depth);
+  [[nodiscard]] bool leaves_for_good(const ChordSample& run_end, const ChordSample& gone,
+                                     const ChordSample& outside) const;
+  // So much a point of the body may leave the straight way between two samples.
+  [[nodiscard]] double slack_between(const ChordSample& a, const ChordSample& b) const;
   [[nodiscard]] double resolution() const;
   [[nodiscard]] ChordSample end_of_run(ChordSample inside, ChordSample outside) const;
   void search_empty(const ChordSample& a, const ChordSample& b);

@@ -264,7 +264,7 @@ double HighestEnd::slope_of(const Touched& at) const {
 // Nothing where it does not get there soon.
 std::optional<HighestEnd::Touched> HighestEnd::summit_between(const Touched& a, const Touched& b,
                                                               double enough) {
-  constexpr int kSoon = 8;
+  constexpr int kSoon = 24;
   struct Place {
     double t, slope;
   };
@@ -275,9 +275,11 @@ std::optional<HighestEnd::Touched> HighestEnd::summit_between(const Touched& a, 
   // The secant through the last two, the first of which is the flatter end.
   Place last = rises, before = falls;
   if (last.slope > -before.slope) std::swap(last, before);
+  bool stalls = false;
   for (int i = 0; i < kSoon; ++i) {
-    const double t = last.t - last.slope * (last.t - before.t) / (last.slope - before.slope);
-    if (!(rises.t < t && t < falls.t) || ++looks_ > kMostLooks) return std::nullopt;
+    double t = last.t - last.slope * (last.t - before.t) / (last.slope - before.slope);
+    if (stalls || !(rises.t < t && t < falls.t)) t = 0.5 * (rises.t + falls.t);
+    if (++looks_ > kMostLooks) return std::nullopt;
     const ChordSample sample = sample_at(t);
     if (!sample.chord) {
       note_gap(t, b.t - a.t);
@@ -288,7 +290,7 @@ std::optional<HighestEnd::Touched> HighestEnd::summit_between(const Touched& a, 
     before = last;
     last = {t, slope_of(here)};
     if (std::abs(last.slope) * (b.t - a.t) * here.plane.along <= enough) return here;
-    if (std::abs(last.slope) > 0.5 * std::abs(before.slope)) return std::nullopt;
+    stalls = std::abs(last.slope) > 0.5 * std::abs(before.slope);
     (last.slope > 0.0 ? rises : falls) = last;
   }
   return std::nullopt;
@@ -320,51 +322,55 @@ bool HighestEnd::surely_no_deeper(const Touched& a, const Touched& b) const {
   // At a smooth top the plane mostly holds all the way.
   const bool is_at_a = a.plane.value > b.plane.value;
   const Touched &higher = is_at_a ? a : b, &lower = is_at_a ? b : a;
-  const double from_higher = height_holds(higher, lower.pose, point);
+  const double from_higher = height_holds(higher, lower, point);
   if (!(from_higher > 0.0)) return false;
   if (from_higher >= 1.0) return true;
-  const double from_lower = height_holds(lower, higher.pose, point);
+  const double from_lower = height_holds(lower, higher, point);
   return from_lower > 0.0 && from_higher + from_lower >= 1.0;
 }
 
-// From a sample towards a pose: for what share of the way the point is surely not below the plane
-// that touches the body there, less kSearchTolerance, nor what is beyond it along the ray. The
-// height of the point is at least lateral w.(m x a) + axial m.a - offset (group_bound.hpp has the
-// reason), with w as it is there: of straight motions of tip and axis a parabola in time.
-double HighestEnd::height_holds(const Touched& from, const ToolPose& to, const Vec3& point) const {
+// From a sample towards another: for what share of the way the point is surely not below the plane
+// that touches the body there, less kSearchTolerance, nor what is beyond it along the ray. At m
+// from the tip of a cutter with axis a the height of the point is lateral |m x a| + axial m.a -
+// offset: |m x a| is its part along w, across the meridian as it is at the sample, and more by what
+// it has beside w. All of that is known to the second order of the share.
+double HighestEnd::height_holds(const Touched& from, const Touched& to, const Vec3& point) const {
   const TangentPlane& plane = from.plane;
   const Vec3& a = from.pose.axis;
   const Vec3 m = point - from.pose.tip;
   const Vec3 normal = plane.normal_across(a);
-  const double above = normal.dot(m) - plane.offset + kSearchTolerance;
+  const double offset = normal.dot(m);
+  const double above = offset - plane.offset + kSearchTolerance;
   if (!(above >= 0.0)) return 0.0;
-  const Vec3 step = to.tip - from.pose.tip, turn = to.axis - a;
+  const double turn = motion_.turn() * std::abs(to.t - from.t), turn2 = turn * turn;
+  constexpr double kFarTurned = 0.1;
+  if (turn > kFarTurned || !(plane.along * plane.along > 1.21 * turn2)) return 0.0;
+  const Vec3 step = to.pose.tip - from.pose.tip;
+  Vec3 turning = to.pose.axis - a.dot(to.pose.axis) * a;
+  const double sine = turning.norm();
+  if (sine > 0.0) turning *= turn / sine;
+  // What the height gains by the tip's way, by turning, and by both; with w as it is at the sample.
   const Vec3 w = plane.side.cross(a);
-  const Vec3 by_axis = plane.lateral * w.cross(m) + plane.axial * m;
-  const double turned2 = turn.squaredNorm();
-  constexpr double kFarTurned = 0.06;  // a sample and the next are nearer
-  if (turned2 > kFarTurned * kFarTurned || !(plane.along * plane.along > 1.21 * turned2))
-    return 0.0;
-  // Where the axis is on its great circle, a share u of the way: u (1 - u) turn^2 / 2 outside of
-  // the chord, within turn^2 / 5 of that, and less than u (1 - u) turn^3 / 11.75 beside it. (Turn
-  // and chord: the difference is in these numbers.) All that is not known is so much, or less,
-  // times 4 u (1 - u): nothing where the sample is.
-  const Vec3 outwards = a + 0.5 * turn;
-  const double arc = 0.5 * turned2 * by_axis.dot(outwards);
-  const double beside = turned2 * std::sqrt(turned2) / 47.0;
-  const double sideways =
-      std::abs(plane.lateral * outwards.cross(w).dot(step) + plane.axial * outwards.dot(step));
-  // w is across the meridian there only, and |m x a| at least w.(m x a) / |w x a|.
-  const double across = std::abs(w.dot(turn)), far = m.norm(), run = step.norm();
-  const Vec3 there = point - to.tip;
-  const double least_rho = std::min(w.dot(m.cross(a)), w.dot(there.cross(to.axis))) -
-                           run * std::sqrt(turned2) - far * turned2 / 7.9;
-  const double turns = 0.5 * plane.lateral * std::max(0.0, least_rho) * across * across;
-  const double unknown = turned2 / 7.9 * sideways + beside * (far + run) +
-                         std::abs(arc) * turned2 / 20.0 + far * across * beside;
-  const double rise = by_axis.dot(turn) + arc - normal.dot(step) - 4.0 * unknown;
-  const double bend = turns - arc + 4.0 * unknown -
-                      (plane.lateral * w.dot(step.cross(turn)) + plane.axial * step.dot(turn));
+  const auto turned = [&](const Vec3& arm) {
+    return (plane.lateral * w.cross(arm) + plane.axial * arm).dot(turning);
+  };
+  const double by_step = -normal.dot(step), by_turn = turned(m), by_both = -turned(step);
+  const double third = 3.0 * turn * (turn * std::abs(by_step) + std::abs(by_both)) +
+                       turn2 * (turn * (std::abs(offset) + std::abs(by_step)) + std::abs(by_turn) +
+                                std::abs(by_both));
+  // How fast m x a leaves w, sideways from where it is beside it; at most so much slower on the way.
+  const double far = m.norm(), run = step.norm();
+  const Vec3 arm_turned = m.cross(turning);
+  const double slower = turn * run + 0.5 * turn2 * (far + run);
+  const double off = -m.dot(w), leaves = w.dot(step) + plane.side.dot(arm_turned);
+  const double sideways = std::max(0.0, std::abs(leaves) - slower);
+  const double upwards = std::max(0.0, std::abs(a.dot(arm_turned)) - slower);
+  const double back = off * leaves < 0.0 ? std::abs(off) : 0.0;
+  const double farthest = std::hypot(plane.side.dot(m), off) + run + turn * far;  // from the axis
+  const double falls_away = farthest > 0.0 ? 0.5 * plane.lateral / farthest : 0.0;
+  const double rise = by_step + by_turn - 2.0 * falls_away * sideways * back;
+  const double bend = by_both - 0.5 * turn2 * offset - third / 6.0 +
+                      falls_away * (sideways * sideways + upwards * upwards);
   return share_above(above, rise, bend);
 }
 

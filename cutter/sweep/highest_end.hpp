@@ -75,7 +75,7 @@ class HighestEnd {
   void close_in(const Touched& a, const Touched& b, int depth, bool is_sought = false);
   [[nodiscard]] bool stays_below_floor(const Touched& a, const Touched& b) const;
   [[nodiscard]] bool surely_no_deeper(const Touched& a, const Touched& b) const;
-  [[nodiscard]] double height_holds(const Touched& from, const ToolPose& to,
+  [[nodiscard]] double height_holds(const Touched& from, const Touched& to,
                                     const Vec3& point) const;
 
   [[nodiscard]] std::optional<Touched> summit_between(const Touched& a, const Touched& b,

@@ -37,7 +37,7 @@ class SegmentMotion {
   // no point leaves the straight line between its ends by more than bend dt^2 / 8.
   [[nodiscard]] double bend() const { return bend_; }
   // A plane that goes with the cutter, turned about its axis to a fixed side: how far, over a part
-  // dt of the segment in which the cutter turns by at most 0.05 rad, its height over a point, or
+  // dt of the segment in which the cutter turns by at most 0.3 rad, its height over a point, or
   // where a ray crosses it, may leave the straight line between the ends, at most (mm). `away`:
   // from the tip to the point; `run`: way of the point relative to the tip.
   [[nodiscard]] double plane_departure(double dt, double away, double run) const;
