@@ -81,69 +81,6 @@ class RayHistory {
   std::vector<RemovedPiece> pieces_{};
 };
 
-// When and where in the tool's frame a block meets a piece of a ray.
-struct Meeting {
-  double time = 0.0;
-  ToolPose pose{};
-  Vec3 feed = Vec3::Zero();  // of the tip, not normalised
-};
-
-class MeetingSearch {
- public:
-  MeetingSearch(const Workpiece& workpiece, const Timetable& table)
-      : swept_(workpiece.removed()), path_(swept_.path()), table_(table) {}
-
-  // The first instant at which the block's cutter, at every quarter of its radius, covers some of
-  // the piece; then halved down to a nanometre of motion.
-  [[nodiscard]] std::optional<Meeting> first(const RemovedPiece& removed, const Ray& ray) const {
-    for (std::uint32_t i = table_.first_segment(removed.block);
-         i < table_.first_segment(removed.block + 1); ++i) {
-      const Box& box = swept_.box(i);
-      if (!meets(box, ray, removed.piece)) continue;
-      if (const auto t = first_in(i, removed, ray)) {
-        const auto& segment = path_.segments[i];
-        return Meeting{table_.time(i, *t),
-                       kinematics::between(path_.from(segment), path_.to(segment), *t),
-                       path_.to(segment).tip - path_.from(segment).tip};
-      }
-    }
-    return std::nullopt;
-  }
-
- private:
-  static bool meets(const Box& box, const Ray& ray, const Interval& piece) {
-    const Vec3 a = ray.at(piece.lo), b = ray.at(piece.hi);
-    return (a.cwiseMin(b).array() <= box.max.array()).all() &&
-           (a.cwiseMax(b).array() >= box.min.array()).all();
-  }
-
-  [[nodiscard]] std::optional<double> first_in(std::uint32_t i, const RemovedPiece& removed,
-                                               const Ray& ray) const {
-    const auto& segment = path_.segments[i];
-    const cutter::Body& body = swept_.tool(path_.blocks[removed.block].tool).body();
-    const SegmentMotion motion(path_, segment, body.reach());
-    const auto covers = [&](double t) {
-      return body.meets(motion.at(t), ray, removed.piece.lo, removed.piece.hi);
-    };
-    if (covers(0.0)) return 0.0;
-    const int steps = 1 + static_cast<int>(motion.travel() / (0.25 * body.max_radius()));
-    int k = 1;
-    while (k <= steps && !covers(static_cast<double>(k) / steps)) ++k;
-    if (k > steps) return std::nullopt;
-    double lo = static_cast<double>(k - 1) / steps, hi = static_cast<double>(k) / steps;
-    while ((hi - lo) * motion.travel() > 1e-6) {
-      const double middle = 0.5 * (lo + hi);
-      (covers(middle) ? hi : lo) = middle;
-      if (middle == lo && middle == hi) break;
-    }
-    return hi;
-  }
-
-  const cutter::SweptCutter& swept_;
-  const ToolPath& path_;
-  const Timetable& table_;
-};
-
 struct Extent {
   double lo = std::numeric_limits<double>::infinity();
   double hi = -std::numeric_limits<double>::infinity();
@@ -156,6 +93,135 @@ struct Extent {
     hi = std::max(hi, other.hi);
   }
   [[nodiscard]] bool empty() const { return lo > hi; }
+};
+
+// How a block takes a piece of a ray: when its cutter meets it first, along what of its axis the
+// cutter is in it at any time, and where across axis and feed it meets the piece's ends.
+struct Engagement {
+  Extent time{}, axial{}, radial{};
+};
+
+class EngagementSearch {
+ public:
+  EngagementSearch(const Workpiece& workpiece, const Timetable& table)
+      : swept_(workpiece.removed()), path_(swept_.path()), table_(table) {}
+
+  // The cutter is looked at at every quarter of its radius; first meetings are halved down to a
+  // nanometre of motion.
+  [[nodiscard]] Engagement of(const RemovedPiece& removed, const Ray& ray) const {
+    Engagement engagement;
+    bool has_lo = take_made_end(engagement, removed, ray, removed.piece.lo, removed.piece.lo_tag);
+    bool has_hi = take_made_end(engagement, removed, ray, removed.piece.hi, removed.piece.hi_tag);
+    for (std::uint32_t i = table_.first_segment(removed.block);
+         i < table_.first_segment(removed.block + 1); ++i) {
+      if (!meets(swept_.box(i), ray, removed.piece)) continue;
+      const Passage passage(*this, i, removed, ray);
+      if (engagement.time.empty()) {
+        const auto t = passage.first(removed.piece.lo, removed.piece.hi);
+        if (!t) continue;
+        engagement.time.take(table_.time(i, *t));
+      }
+      passage.take_all(engagement);
+      const double middle = 0.5 * (removed.piece.lo + removed.piece.hi);
+      has_lo = has_lo || passage.take_first(engagement, removed.piece.lo, middle);
+      has_hi = has_hi || passage.take_first(engagement, removed.piece.hi, middle);
+    }
+    return engagement;
+  }
+
+ private:
+  // A piece and the cutter on its way over one segment.
+  class Passage {
+   public:
+    Passage(const EngagementSearch& search, std::uint32_t segment, const RemovedPiece& removed,
+            const Ray& ray)
+        : body_(search.body_of(removed)),
+          motion_(search.path_, search.path_.segments[segment], body_.reach()),
+          feed_(motion_.at(1.0).tip - motion_.at(0.0).tip),
+          piece_(removed.piece),
+          ray_(ray),
+          steps_(1 + static_cast<int>(motion_.travel() / (0.25 * body_.max_radius()))) {}
+
+    // When it first covers some of the ray from lo to hi.
+    [[nodiscard]] std::optional<double> first(double lo, double hi) const {
+      const auto covers = [&](double t) { return body_.meets(motion_.at(t), ray_, lo, hi); };
+      if (covers(0.0)) return 0.0;
+      int k = 1;
+      while (k <= steps_ && !covers(time(k))) ++k;
+      if (k > steps_) return std::nullopt;
+      double before = time(k - 1), after = time(k);
+      while ((after - before) * motion_.travel() > 1e-6) {
+        const double middle = 0.5 * (before + after);
+        (covers(middle) ? after : before) = middle;
+        if (middle == before && middle == after) break;
+      }
+      return after;
+    }
+    void take_all(Engagement& engagement) const {
+      for (int k = 0; k <= steps_; ++k) take_axial(engagement, motion_.at(time(k)));
+    }
+    // Where it first covers an end, if it does; `inside`: a place within the piece.
+    bool take_first(Engagement& engagement, double end, double inside) const {
+      constexpr double kJustInside = 1e-6;  // mm
+      const double next = end + std::clamp(inside - end, -kJustInside, kJustInside);
+      const auto t = first(std::min(end, next), std::max(end, next));
+      if (!t) return false;
+      take_end(engagement, end, motion_.at(*t));
+      return true;
+    }
+    void take_end(Engagement& engagement, double end, const ToolPose& pose) const {
+      take_axial(engagement, pose);
+      constexpr double kPlunge = 1e-6;  // of the feed across the axis
+      const Vec3 across = feed_.cross(pose.axis);
+      if (!(across.norm() > kPlunge * feed_.norm())) return;
+      engagement.radial.take((ray_.at(end) - pose.tip).dot(across.normalized()));
+    }
+
+   private:
+    [[nodiscard]] double time(int k) const { return static_cast<double>(k) / steps_; }
+    // Of what of the piece it covers.
+    void take_axial(Engagement& engagement, const ToolPose& pose) const {
+      for (const cutter::Chord& chord : body_.core(pose, ray_, 0.0)) {
+        const double lo = std::max(chord.lo, piece_.lo), hi = std::min(chord.hi, piece_.hi);
+        if (!(lo < hi)) continue;
+        for (const double s : {lo, hi})
+          engagement.axial.take((ray_.at(s) - pose.tip).dot(pose.axis));
+      }
+    }
+
+    const cutter::Body& body_;
+    SegmentMotion motion_;
+    Vec3 feed_;
+    const Interval& piece_;
+    const Ray& ray_;
+    int steps_;
+  };
+
+  [[nodiscard]] const cutter::Body& body_of(const RemovedPiece& removed) const {
+    return swept_.tool(path_.blocks[removed.block].tool).body();
+  }
+
+  // An end that this block made, where its cutter is there.
+  bool take_made_end(Engagement& engagement, const RemovedPiece& removed, const Ray& ray,
+                     double end, EndTag tag) const {
+    if (tag < static_cast<EndTag>(table_.first_segment(removed.block)) ||
+        tag >= static_cast<EndTag>(table_.first_segment(removed.block + 1)))
+      return false;
+    const auto segment = static_cast<std::uint32_t>(tag);
+    Passage(*this, segment, removed, ray)
+        .take_end(engagement, end, swept_.contact(ray, end, segment).pose);
+    return true;
+  }
+
+  static bool meets(const Box& box, const Ray& ray, const Interval& piece) {
+    const Vec3 a = ray.at(piece.lo), b = ray.at(piece.hi);
+    return (a.cwiseMin(b).array() <= box.max.array()).all() &&
+           (a.cwiseMax(b).array() >= box.min.array()).all();
+  }
+
+  const cutter::SweptCutter& swept_;
+  const ToolPath& path_;
+  const Timetable& table_;
 };
 
 // Sums over the pieces of one block.
@@ -178,22 +244,10 @@ struct Tally {
   }
 };
 
-void take_engagement(Tally& tally, const Meeting& meeting, const Ray& ray, const Interval& piece) {
-  constexpr double kPlunge = 1e-6;  // of the feed across the axis
-  tally.time.take(meeting.time);
-  const Vec3 across = meeting.feed.cross(meeting.pose.axis);
-  const bool has_side = across.norm() > kPlunge * meeting.feed.norm();
-  for (const double s : {piece.lo, piece.hi}) {
-    const Vec3 w = ray.at(s) - meeting.pose.tip;
-    tally.axial.take(w.dot(meeting.pose.axis));
-    if (has_side) tally.radial.take(w.dot(across.normalized()));
-  }
-}
-
 // Of one row of rays, by block; pieces are met in the order of rays and of the program.
 std::vector<Tally> tally_row(const Workpiece& workpiece, const Timetable& table,
                              const CellRays& rays, int v) {
-  const MeetingSearch search(workpiece, table);
+  const EngagementSearch search(workpiece, table);
   std::vector<Tally> tallies;
   for (int u = 0; u < rays.count_u; ++u) {
     const Ray ray = rays.ray(u, v);
@@ -203,9 +257,10 @@ std::vector<Tally> tally_row(const Workpiece& workpiece, const Timetable& table,
       if (length > kRounding) {
         tally.length = tally.largest = length;
         tally.pieces = 1;
-        if (const auto meeting = search.first(removed, ray)) {
-          take_engagement(tally, *meeting, ray, removed.piece);
-        }
+        const Engagement engagement = search.of(removed, ray);
+        tally.axial = engagement.axial;
+        tally.radial = engagement.radial;
+        tally.time = engagement.time;
       }
       const auto same = std::find_if(tallies.begin(), tallies.end(),
                                      [&](const Tally& t) { return t.block == removed.block; });

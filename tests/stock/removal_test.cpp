@@ -67,6 +67,43 @@ TEST(Removal, OfAPlungeIsACylinderWithoutASide) {
   EXPECT_NEAR(*removal->front().first_contact, 5.0, 1e-6);
 }
 
+// Engagement of one stroke into the box, by a mesh of rays that finds it within 0.05 mm.
+BlockRemoval taken_by(const kinematics::ToolPath& path, const cutter::Cutter& tool) {
+  const auto removal = removal_of(cut(path, tool), {.pitch = 0.4_mm});
+  EXPECT_TRUE(removal);
+  return removal->front();
+}
+
+TEST(Removal, EngagesNoMoreOfTheCutterThanIsInTheMaterial) {
+  const auto stroke = [](const Vec3& from, const Vec3& to) {
+    return path_through(std::vector<Vec3>{from, to});
+  };
+  const cutter::Cutter ball = end_mill(16.0, 30.0, cutter::CutterType::ball);
+  const BlockRemoval plunge = taken_by(stroke({0, 0, 5}, {0, 0, -3}), ball);
+  EXPECT_NEAR(plunge.axial_engagement, 3.0, 0.01);
+  const BlockRemoval ramp = taken_by(stroke({-10, 0, 0}, {10, 0, -5}), end_mill());
+  EXPECT_NEAR(ramp.axial_engagement, 5.0, 0.01);
+  EXPECT_NEAR(*ramp.radial_engagement, 10.0, 0.01);
+  const BlockRemoval level = taken_by(stroke({-60, 0, -2}, {60, 0, -2}), ball);
+  EXPECT_NEAR(level.axial_engagement, 2.0, 0.01);
+  EXPECT_NEAR(*level.radial_engagement, 2.0 * std::sqrt(8.0 * 8.0 - 6.0 * 6.0), 0.05);
+}
+
+TEST(Removal, OfAHelixIsAsWideAsTheCutter) {
+  kinematics::ToolPath path;
+  constexpr std::uint32_t kSegments = 48;
+  for (std::uint32_t i = 0; i <= kSegments; ++i) {
+    const double turn = 2.0 * std::numbers::pi * i / kSegments;
+    path.poses.push_back(
+        {{5.0 * std::cos(turn), 5.0 * std::sin(turn), -2.0 * i / kSegments}, Vec3::UnitZ()});
+    if (i > 0) path.segments.push_back({i - 1, 0});
+  }
+  path.blocks.push_back({.source_line = 10, .tool = 1, .feed = 600.0, .duration = 10.0});
+  const BlockRemoval helix = taken_by(path, end_mill());
+  EXPECT_NEAR(helix.axial_engagement, 2.0, 0.01);
+  EXPECT_NEAR(*helix.radial_engagement, 10.0, 0.01);
+}
+
 TEST(RemovalLaws, PiecesAlongARayAreWhatEveryBlockTook) {
   constexpr std::uint32_t kBlocks = 12;
   const Workpiece part = cut(random_path(3, kBlocks));
