@@ -173,18 +173,15 @@ class Planner {
 
   void add_other_visits(std::vector<BlockRange>& ranges, const Found& contact) const {
     constexpr std::size_t kMostVisits = 4;
-    const auto& removed = middle_.workpiece->removed();
-    const Vec3 room = Vec3::Constant(kSurroundings);
-    const Box near{contact.touched - room, contact.touched + room};
-    for (std::uint32_t s = 0; s < path_.segments.size() && ranges.size() < kMostVisits; ++s) {
-      if (!overlap(removed.box(s), near)) continue;
+    bounds_.segments().for_each(contact.touched, kVisit, [&](std::uint32_t s) {
+      if (ranges.size() >= kMostVisits) return false;
       const kinematics::PathSegment& segment = path_.segments[s];
-      if (is_in(ranges, segment.block) || path_.blocks[segment.block].tool != contact.tool)
-        continue;
-      if (least_distance(segment, contact) < kVisit) {
+      const bool is_other =
+          !is_in(ranges, segment.block) && path_.blocks[segment.block].tool == contact.tool;
+      if (is_other && least_distance(segment, contact) < kVisit)
         ranges.push_back(around(segment.block, contact));
-      }
-    }
+      return true;
+    });
   }
 
   // A cutter that moves straight is at a distance that is a convex function of time.

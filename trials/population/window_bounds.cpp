@@ -119,10 +119,7 @@ ColumnMotions numbers_of(std::span<const PoseDisplacement> motions) {
 
 WindowBounds::WindowBounds(const kinematics::Machine& /*machine*/, const kinematics::Setup& setup,
                            const ColumnMotion& columns, const stock::Workpiece& workpiece)
-    : setup_(setup), columns_(columns), workpiece_(workpiece) {
-  const auto segments = static_cast<std::uint32_t>(workpiece.removed().path().segments.size());
-  boxes_.reserve(segments);
-  for (std::uint32_t s = 0; s < segments; ++s) boxes_.push_back(workpiece.removed().box(s));
+    : setup_(setup), columns_(columns), workpiece_(workpiece), segments_(workpiece.removed()) {
   measure_largest();
 }
 
@@ -293,9 +290,9 @@ void WindowBounds::take_segment(Others& others, const ContactPlace& at, std::uin
     BodyDistance off{};
     double nearer = 0.0, lean = 0.0;
   };
-  const auto moment = [&](double t) {
+  const auto moment = [&](double t, const BodyDistance& off) {
     const ToolPose pose = motion.at(t);
-    Moment m{t, from_body(body, pose, at.point)};
+    Moment m{t, off};
     m.lean = across(m.off.out, at.normal).norm();
     m.nearer = 2.0 * largest_;
     if (m.off.value > enough) return m;
@@ -342,7 +339,8 @@ void WindowBounds::take_segment(Others& others, const ContactPlace& at, std::uin
     const bool is_uneven = most > 1.2 * least || cosine_between(a.off.out, b.off.out) < kTurned;
     const bool is_long = is_uneven && motion.travel() * (b.t - a.t) > 0.02;
     if (least < enough && is_long && depth < kDeepest) {
-      const Moment middle = moment(0.5 * (a.t + b.t));
+      const double t = 0.5 * (a.t + b.t);
+      const Moment middle = moment(t, from_body(body, motion.at(t), at.point));
       self(self, a, middle, depth + 1);
       self(self, middle, b, depth + 1);
     } else if (least > enough) {
@@ -367,24 +365,22 @@ void WindowBounds::take_segment(Others& others, const ContactPlace& at, std::uin
     take(others.closeness, any);
     take(others.near.rest, any);
   } else {
-    take_part(take_part, moment(0.0), moment(1.0), 0);
+    take_part(take_part, moment(0.0, a), moment(1.0, b), 0);
   }
 }
 
 double WindowBounds::room(const Vec3& point) const {
   const ToolPath& path = workpiece_.removed().path();
   double least = kFarOff * largest_;
-  const Vec3 around = Vec3::Constant(least);
-  const Box near{point - around, point + around};
-  for (std::uint32_t s = 0; s < path.segments.size(); ++s) {
-    if (!overlap(boxes_[s], near)) continue;
+  segments_.for_each(point, least, [&](std::uint32_t s) {
     const kinematics::PathSegment& segment = path.segments[s];
     const cutter::Body& body = workpiece_.removed().tool(path.blocks[segment.block].tool).body();
     const cutter::SegmentMotion motion(path, segment, body.reach());
     const BodyDistance a = from_body(body, path.from(segment), point);
     const BodyDistance b = from_body(body, path.to(segment), point);
     least = std::min(least, LeastDistance(body, motion, point).find({0.0, a}, {1.0, b}, least));
-  }
+    return true;
+  });
   return least;
 }
 
@@ -429,13 +425,12 @@ WindowBounds::Others WindowBounds::others(const ContactPlace& at, std::span<cons
     take(*both, {kTurned / cleared, 1.0 / cleared, 0.0});
     take(*both, {0.0, 0.0, 1.0 / inside});
   }
-  const Vec3 room = Vec3::Constant(far);
-  const Box near{at.point - room, at.point + room};
-  for (std::uint32_t s = 0; s < path.segments.size(); ++s) {
-    if (!overlap(boxes_[s], near) || is_in(but, path.segments[s].block)) continue;
-    take_segment(others, at, s);
-    if (!std::isfinite(others.closeness.per_scale)) return others;
-  }
+  // What is farther off says no more than `far` does.
+  segments_.for_each(at.point, far, [&](std::uint32_t s) {
+    if (!is_in(but, path.segments[s].block)) take_segment(others, at, s);
+    return std::isfinite(others.closeness.per_scale);
+  });
+  if (!std::isfinite(others.closeness.per_scale)) return others;
   others.near.is_known = near_.places.size() < kMostPlaces;
   for (const Vec3& motion : at.motions) {
     others.near.own.push_back({static_cast<float>(motion.x()), static_cast<float>(motion.y()),

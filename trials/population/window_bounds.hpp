@@ -25,6 +25,7 @@
 #include "trials/population/column_motion.hpp"
 #include "trials/population/lane_contact.hpp"
 #include "trials/population/near_parts.hpp"
+#include "trials/population/near_segments.hpp"
 
 namespace frustum::trials {
 
@@ -68,6 +69,8 @@ class WindowBounds {
                const ColumnMotion& columns, const stock::Workpiece& workpiece);
 
   [[nodiscard]] double largest_motion() const { return largest_; }
+  // Of the path.
+  [[nodiscard]] const NearSegments& segments() const { return segments_; }
   [[nodiscard]] std::vector<Vec3> motions(const kinematics::AxisState& state, int tool,
                                           const kinematics::ToolPose& pose,
                                           const Vec3& point) const;
@@ -112,7 +115,7 @@ class WindowBounds {
   const kinematics::Setup& setup_;
   const ColumnMotion& columns_;
   const stock::Workpiece& workpiece_;
-  std::vector<Box> boxes_{};  // of what each segment of the path sweeps
+  NearSegments segments_;
   double largest_ = 0.0;
   NearPlaces near_{};
   std::map<std::pair<std::uint32_t, double>, std::uint32_t> near_known_{};  // by segment and time
