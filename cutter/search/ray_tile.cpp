@@ -25,7 +25,7 @@ constexpr double kInward = 1e-6;
 // known what is covered.
 constexpr double kCoarse = 4.0, kFine = 0.5;
 // Tiles of so many rays or fewer have fans; of so few or fewer are not looked at as a whole.
-constexpr std::size_t kFanned = 16, kFew = 4;
+constexpr std::size_t kFanned = 64, kFew = 16;
 // Planes that a ray meets at a smaller cosine bound badly.
 constexpr double kGrazingCover = 0.02;
 
