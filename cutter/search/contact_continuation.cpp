@@ -96,7 +96,7 @@ Result<ChangedPath> ChangedPath::on(const SweptCutter& nominal, ToolPath path) {
                            spread * reach * (path.poses[i].axis - old.poses[i].axis).norm();
       displacement = std::max(displacement, moved);
     }
-    constexpr double kFarTurned = 0.05;  // plane_departure() holds up to here
+    constexpr double kFarTurned = 0.05;  // motions that turn by more are not followed
     const double departure = motion.plane_departure(1.0, reach + motion.travel(), motion.travel());
     departures.push_back(motion.turn() > kFarTurned ? std::numeric_limits<double>::infinity()
                                                     : 4.0 * departure);

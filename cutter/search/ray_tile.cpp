@@ -25,7 +25,7 @@ constexpr double kInward = 1e-6;
 // known what is covered.
 constexpr double kCoarse = 4.0, kFine = 0.5;
 // Tiles of so many rays or fewer have fans; of so few or fewer are not looked at as a whole.
-constexpr std::size_t kFanned = 64, kFew = 16;
+constexpr std::size_t kFannedTile = 64, kFewRays = 16;
 // Planes that a ray meets at a smaller cosine bound badly.
 constexpr double kGrazingCover = 0.02;
 
@@ -132,13 +132,13 @@ class TileSearch {
     if (count == 1) return;
     const std::size_t anchored = anchors_.size();
     std::vector<CoverFan> own;
-    if (count > kFew && middle_of(at)) {
+    if (count > kFewRays && middle_of(at)) {
       const RayTile tile = tile_of(at, question_.rays[*middle]);
       find_covers(tile, *middle);
-      fans_follow_ = count <= kFanned;
+      fans_follow_ = count <= kFannedTile;
       filter(tile, first, last);
       first = last;
-      if (count <= kFanned) {
+      if (count <= kFannedTile) {
         own = fans_of(*middle, first);
         fans = own;
       }

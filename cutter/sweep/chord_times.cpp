@@ -27,8 +27,8 @@ double gap_of(const Vec3& normal, const Profile& body, const ToolPose& pose, con
 }
 
 // Whether the plane along the ray with that normal has the body, on its way from a to b, on its
-// other side but for kMissedDepth. True is a proof. `slack`: by so much the body leaves the straight
-// way between them.
+// other side but for kMissedDepth. True is a proof. `slack`: by so much the body leaves the
+// straight way between them.
 bool parts(const Vec3& normal, const Profile& body, const ToolPose& a, const ToolPose& b,
            double slack, const Ray& ray) {
   // Between its ends the gap is (1 - t) A + t B or less by 4 t (1 - t) slack: least where that is
@@ -59,10 +59,13 @@ Vec3 away_from_axis(const Profile& body, const ToolPose& pose, const Ray& ray) {
   const Vec3 arm = m - height * pose.axis;
   const Vec3 across = arm - arm.dot(ray.direction) * ray.direction;
   const double length = across.norm();
-  return length > 1e-9 ? Vec3(across / length) : perpendicular_to(ray.direction);
+  if (!(length > 1e-9)) return perpendicular_to(ray.direction);
+  // Once more: what rounding leaves along the ray of a short arm would count for all of its length.
+  const Vec3 normal = across / length;
+  return (normal - normal.dot(ray.direction) * ray.direction).normalized();
 }
 
-// The same of any of some planes that are likely.
+// Whether one of the planes that are likely to part them does. True is a proof.
 bool surely_apart(const Profile& body, const ToolPose& a, const ToolPose& b, double slack,
                   const Ray& ray) {
   const auto apart = [&](const Vec3& normal) { return parts(normal, body, a, b, slack, ray); };
@@ -111,8 +114,8 @@ SeparatingPlane separate(const Profile& body, const ToolPose& pose, const Ray& r
   return -loss < best.gap ? best : SeparatingPlane{beside(tangent), -loss};
 }
 
-// Where a run of chords ends, by the last three of them: the square of a chord's length falls as
-// time goes on, to 0 where the ray comes to touch the body.
+// Where a run of chords ends, by the last three of them: the square of a chord's length falls
+// towards the end, to 0 where the ray comes to touch the body.
 class RunEnd {
  public:
   explicit RunEnd(const ChordSample& first) { take(first); }

@@ -358,16 +358,24 @@ double HighestEnd::height_holds(const Touched& from, const Touched& to, const Ve
   const double third = 3.0 * turn * (turn * std::abs(by_step) + std::abs(by_both)) +
                        turn2 * (turn * (std::abs(offset) + std::abs(by_step)) + std::abs(by_turn) +
                                 std::abs(by_both));
-  // How fast m x a leaves w, sideways from where it is beside it; at most so much slower on the way.
+  // How fast m x a leaves w, sideways from `off` beside it; at most so much slower on the way.
   const double far = m.norm(), run = step.norm();
   const Vec3 arm_turned = m.cross(turning);
   const double slower = turn * run + 0.5 * turn2 * (far + run);
   const double off = -m.dot(w), leaves = w.dot(step) + plane.side.dot(arm_turned);
+  const double rises = a.dot(arm_turned);
   const double sideways = std::max(0.0, std::abs(leaves) - slower);
-  const double upwards = std::max(0.0, std::abs(a.dot(arm_turned)) - slower);
+  const double upwards = std::max(0.0, std::abs(rises) - slower);
   const double back = off * leaves < 0.0 ? std::abs(off) : 0.0;
-  const double farthest = std::hypot(plane.side.dot(m), off) + run + turn * far;  // from the axis
-  const double falls_away = farthest > 0.0 ? 0.5 * plane.lateral / farthest : 0.0;
+  const double from_axis = std::hypot(plane.side.dot(m), off);
+  const double farthest = from_axis + run + turn * far;
+  // What it falls away counts while the plane there, too, surely faces along the ray: a body that
+  // turns could leave the ray and come back beyond the point.
+  const double beside =
+      std::abs(off) + std::hypot(std::abs(leaves) + slower, std::abs(rises) + slower);
+  const double nearest = from_axis - run - turn * far;
+  const bool faces = turn == 0.0 || (plane.along - 1.5 * turn) * nearest > plane.lateral * beside;
+  const double falls_away = faces && farthest > 0.0 ? 0.5 * plane.lateral / farthest : 0.0;
   const double rise = by_step + by_turn - 2.0 * falls_away * sideways * back;
   const double bend = by_both - 0.5 * turn2 * offset - third / 6.0 +
                       falls_away * (sideways * sideways + upwards * upwards);

@@ -70,7 +70,7 @@ Vec3 SegmentMotion::velocity(const Vec3& point, double t) const {
 // With n(t) the plane's normal, seen from a point x(t) that runs along a line, the distance n.(x -
 // p) has the second derivative n''.(x - p) + 2 n'.(x' - p'). Turning at the rate w, n = axial a +
 // lateral b with b across the axis: |a''| = w^2, and up to 0.3 rad the projection of a fixed side
-// bends b by at most 1.01 w^2 and turns n by at most 1.05 w.
+// bends b by at most 1.25 w^2 and turns n by at most 1.05 w.
 double SegmentMotion::plane_departure(double dt, double away, double run) const {
   constexpr double kTurns = 1.1, kBends = 1.9;
   const double turn = turn_ * dt;

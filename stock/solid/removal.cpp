@@ -99,6 +99,7 @@ struct Extent {
 // cutter is in it at any time, and where across axis and feed it meets the piece's ends.
 struct Engagement {
   Extent time{}, axial{}, radial{};
+  Extent made{};  // when it makes ends of the piece
 };
 
 class EngagementSearch {
@@ -126,6 +127,7 @@ class EngagementSearch {
       has_lo = has_lo || passage.take_first(engagement, removed.piece.lo, middle);
       has_hi = has_hi || passage.take_first(engagement, removed.piece.hi, middle);
     }
+    if (engagement.time.empty()) engagement.time = engagement.made;  // it hardly grazes
     return engagement;
   }
 
@@ -153,7 +155,7 @@ class EngagementSearch {
       while ((after - before) * motion_.travel() > 1e-6) {
         const double middle = 0.5 * (before + after);
         (covers(middle) ? after : before) = middle;
-        if (middle == before && middle == after) break;
+        if (middle == before || middle == after) break;
       }
       return after;
     }
@@ -179,10 +181,12 @@ class EngagementSearch {
 
    private:
     [[nodiscard]] double time(int k) const { return static_cast<double>(k) / steps_; }
-    // Of what of the piece it covers.
+    // Of what of the piece it covers; hollows of concave bodies count as if they were filled.
     void take_axial(Engagement& engagement, const ToolPose& pose) const {
-      for (const cutter::Chord& chord : body_.core(pose, ray_, 0.0)) {
-        const double lo = std::max(chord.lo, piece_.lo), hi = std::min(chord.hi, piece_.hi);
+      for (const cutter::Profile& section : body_.sections()) {
+        const auto chord = section.chord(pose, ray_);
+        if (!chord) continue;
+        const double lo = std::max(chord->lo, piece_.lo), hi = std::min(chord->hi, piece_.hi);
         if (!(lo < hi)) continue;
         for (const double s : {lo, hi})
           engagement.axial.take((ray_.at(s) - pose.tip).dot(pose.axis));
@@ -208,8 +212,9 @@ class EngagementSearch {
         tag >= static_cast<EndTag>(table_.first_segment(removed.block + 1)))
       return false;
     const auto segment = static_cast<std::uint32_t>(tag);
-    Passage(*this, segment, removed, ray)
-        .take_end(engagement, end, swept_.contact(ray, end, segment).pose);
+    const cutter::SweepContact contact = swept_.contact(ray, end, segment);
+    Passage(*this, segment, removed, ray).take_end(engagement, end, contact.pose);
+    engagement.made.take(table_.time(segment, contact.t));
     return true;
   }
 

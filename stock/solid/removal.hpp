@@ -45,9 +45,9 @@ struct BlockRemoval {
   double rate = 0.0;               // mm3/min over the block's duration; 0 where that is unknown
   double largest_thickness = 0.0;  // mm of material met along a ray, all three families
   double mean_thickness = 0.0;     // mm, of all pieces met
-  // Axial: of what of its axis the tool has in the material of the block, at any time (a plunge: its
-  // depth). Radial: of the material, across axis and feed, where the cutter meets it (a plunge has
-  // none).
+  // Axial: along what of its axis the tool is in what the block takes, at any time and whether or
+  // not it is gone by then (a plunge: its depth). Radial: of the material, across axis and feed,
+  // where the cutter meets it (a plunge has none).
   double axial_engagement = 0.0;
   std::optional<double> radial_engagement{};
   // s since the start of the program, as the rays of the grid are met; nothing: the block cuts air.

@@ -67,11 +67,12 @@ TEST(Removal, OfAPlungeIsACylinderWithoutASide) {
   EXPECT_NEAR(*removal->front().first_contact, 5.0, 1e-6);
 }
 
-// Engagement of one stroke into the box, by a mesh of rays that finds it within 0.05 mm.
+// Of the first block into the box.
 BlockRemoval taken_by(const kinematics::ToolPath& path, const cutter::Cutter& tool) {
   const auto removal = removal_of(cut(path, tool), {.pitch = 0.4_mm});
-  EXPECT_TRUE(removal);
-  return removal->front();
+  if (removal) return removal->front();
+  ADD_FAILURE();
+  return {};
 }
 
 TEST(Removal, EngagesNoMoreOfTheCutterThanIsInTheMaterial) {
@@ -87,6 +88,20 @@ TEST(Removal, EngagesNoMoreOfTheCutterThanIsInTheMaterial) {
   const BlockRemoval level = taken_by(stroke({-60, 0, -2}, {60, 0, -2}), ball);
   EXPECT_NEAR(level.axial_engagement, 2.0, 0.01);
   EXPECT_NEAR(*level.radial_engagement, 2.0 * std::sqrt(8.0 * 8.0 - 6.0 * 6.0), 0.05);
+}
+
+TEST(Removal, OfAHollowCutterEndsAndSaysWhenItMeets) {
+  const auto hollow = cutter::Cutter::make({.type = cutter::CutterType::flat,
+                                            .diameter = {10.0},
+                                            .length = {60.0},
+                                            .flute_length = {30.0},
+                                            .end_angle = 5.0_deg});
+  ASSERT_TRUE(hollow);
+  const auto path = path_through(std::vector<Vec3>{{-60, 0, -5}, {60, 0, -5}});
+  const BlockRemoval slot = taken_by(path, *hollow);
+  EXPECT_NEAR(slot.axial_engagement, 5.0, 0.01);
+  EXPECT_NEAR(*slot.radial_engagement, 10.0, 0.01);
+  EXPECT_NEAR(*slot.first_contact, 5.0 / 12.0, 0.05 / 12.0);
 }
 
 TEST(Removal, OfAHelixIsAsWideAsTheCutter) {

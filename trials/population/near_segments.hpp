@@ -21,8 +21,8 @@ class NearSegments {
   // Keeps a reference.
   explicit NearSegments(const cutter::SweptCutter& removed);
 
-  // Calls visit(segment), in order, of all in which the cutter may be at most `within` off the point
-  // (inside it counts, too), until that says false.
+  // Calls visit(segment), in order, for all in which the cutter may be at most `within` off the
+  // point (inside it counts, too), until that says false.
   template <class Visit>
   void for_each(const Vec3& point, double within, const Visit& visit) const {
     const Vec3 room = Vec3::Constant(within);

@@ -19,7 +19,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/box.hpp"
 #include "kinematics/controller/setup.hpp"
 #include "stock/solid/workpiece.hpp"
 #include "trials/population/column_motion.hpp"
