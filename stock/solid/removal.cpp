@@ -154,8 +154,8 @@ class EngagementSearch {
       double before = time(k - 1), after = time(k);
       while ((after - before) * motion_.travel() > 1e-6) {
         const double middle = 0.5 * (before + after);
-        (covers(middle) ? after : before) = middle;
         if (middle == before || middle == after) break;
+        (covers(middle) ? after : before) = middle;
       }
       return after;
     }
