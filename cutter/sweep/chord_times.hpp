@@ -23,7 +23,7 @@ namespace frustum::cutter {
 // Times where chords begin or end are found to this much motion.
 inline constexpr double kTangentMotion = 1e-9;  // mm
 // The body turns by at most this between two samples of its chord: bounds between them hold up to
-// 0.1 rad. A piece that is covered for less than a sample, where chords overlap, may be passed over.
+// 0.1 rad. That chords which overlap have all between them is not proven of a body that turns.
 inline constexpr double kTurnPerSample = 0.06;  // rad
 
 struct ChordSample {
