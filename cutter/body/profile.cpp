@@ -19,6 +19,7 @@ struct ToolRay {
   double v2 = 0.0;
   double z0 = 0.0;
   double dz = 0.0;
+  Vec3 w0 = Vec3::Zero(), v = Vec3::Zero();  // across the axis: the place, and the way along s
 };
 
 ToolRay in_tool_terms(const ToolPose& pose, const Ray& ray, double middle) {
@@ -28,12 +29,13 @@ ToolRay in_tool_terms(const ToolPose& pose, const Ray& ray, double middle) {
   const Vec3 w = m - mz * pose.axis;
   const Vec3 v = ray.direction - dz * pose.axis;
   const double v2 = v.squaredNorm();
-  // Nearly along the axis the nearest point to it is far away: count from the middle of the cutter.
-  constexpr double kNearlyAlong = 1e-6;
+  // At small angles to the axis the nearest point to it is far away, where numbers are large: count
+  // from the middle of the cutter.
+  constexpr double kNearlyAlong = 0.04;
   const bool along = v2 < kNearlyAlong;
   const double s0 = along ? (middle - mz) / dz : -w.dot(v) / v2;
   const Vec3 w0 = w + s0 * v;
-  return {s0, w0.squaredNorm(), along ? w0.dot(v) : 0.0, v2, mz + s0 * dz, dz};
+  return {s0, w0.squaredNorm(), along ? w0.dot(v) : 0.0, v2, mz + s0 * dz, dz, w0, v};
 }
 
 struct Span {
@@ -54,21 +56,22 @@ Span slab_span(const ToolRay& ray, double z_lo, double z_hi) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-// a u^2 + 2 b u + c <= 0 for a > 0.
-Span below_parabola(double a, double b, double c) {
+// a u^2 + 2 b u + c <= 0 for a > 0; disc is b^2 - a c.
+Span below_parabola(double a, double b, double c, double disc) {
   if (b == 0.0) {
     const double half2 = -c / a;
     if (half2 < 0.0) return kNothing;
     const double half = std::sqrt(half2);
     return {-half, half};
   }
-  const double disc = b * b - a * c;
   if (disc < 0.0) return kNothing;
   const double q = -(b + std::copysign(std::sqrt(disc), b));
   if (q == 0.0) return {0.0, 0.0};
   const double one = q / a, other = c / q;
   return {std::min(one, other), std::max(one, other)};
 }
+
+Span below_parabola(double a, double b, double c) { return below_parabola(a, b, c, b * b - a * c); }
 
 // rho <= radius.
 Span cylinder_span(const ToolRay& ray, double radius) {
@@ -87,19 +90,24 @@ Span cone_span(const ToolRay& ray, double radius, double slope, double z_lo) {
   const double c = ray.rho2 - r0 * r0;
   const double scale = ray.v2 + e * e;
   if (scale < 1e-30) return c > 0.0 || r0 < 0.0 ? kNothing : Span{};
+  // b^2 - a c, without what cancels of rays along the axis and by the apex.
+  const double disc = (r0 * ray.v - e * ray.w0).squaredNorm() - ray.w0.cross(ray.v).squaredNorm();
   // The ray is steeper than the flank (or as steep): it stays inside once it is.
   if (a <= 1e-14 * scale) {
-    const double disc = std::max(0.0, b * b - a * c);
-    const double q = -(b + std::copysign(std::sqrt(disc), b));
+    const double q = -(b + std::copysign(std::sqrt(std::max(0.0, disc)), b));
     if (q == 0.0) return e > 0.0 ? Span{0.0, kInfinity} : Span{-kInfinity, 0.0};  // by the apex
     const double near = c / q;
     const double far = std::abs(a) <= 1e-14 * scale ? std::copysign(kInfinity, q) : q / a;
     // Of the two half-lines outside the roots the one on the cone's own side of its apex.
     const double lower = std::min(near, far), upper = std::max(near, far);
-    if (std::isinf(far)) return e > 0.0 ? Span{near, kInfinity} : Span{-kInfinity, near};
+    if (std::isinf(far)) {
+      // Along a flank: inside from the root on, or beyond the apex and never of this cone.
+      if ((far > 0.0) != (e > 0.0)) return kNothing;
+      return e > 0.0 ? Span{near, kInfinity} : Span{-kInfinity, near};
+    }
     return e > 0.0 ? Span{upper, kInfinity} : Span{-kInfinity, lower};
   }
-  const Span both = below_parabola(a, b, c);
+  const Span both = below_parabola(a, b, c, disc);
   if (both.empty()) return both;
   return r0 + e * 0.5 * (both.lo + both.hi) < 0.0 ? kNothing : both;
 }

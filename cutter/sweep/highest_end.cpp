@@ -13,8 +13,6 @@ namespace {
 constexpr double kSameState = 1e-11;
 // From here on grazing rays are looked for.
 constexpr int kOftenHalved = 6;
-// A search that needs more than this runs along the surface within rounding.
-constexpr int kMostLooks = 20000;
 // A cutter this near to where its edge is on the ray touches it with the edge (mm of motion).
 constexpr double kOnEdge = 1e-9;
 // Circles of a smaller radius (mm) are points.
@@ -165,12 +163,12 @@ void HighestEnd::close_in(const Touched& a, const Touched& b, int depth, bool is
     climb(a.t, b.t);
     return;
   }
-  if (++looks_ > kMostLooks) return;
+  if (--looks_left_ < 0) return;
   const double x = roof.place_to_look(depth, has_edge);
   const double t = a.t + std::clamp(x, 1e-3, 1.0 - 1e-3) * dt;
   const ChordSample middle = sample_at(t);
   if (!middle.chord) {
-    note_gap(t, dt);
+    passes_gaps_ ? pass_gap(a, t, b, depth, is_sought) : note_gap(t, dt);
     return;
   }
   const Touched m = touched(middle);
@@ -279,10 +277,10 @@ std::optional<HighestEnd::Touched> HighestEnd::summit_between(const Touched& a, 
   for (int i = 0; i < kSoon; ++i) {
     double t = last.t - last.slope * (last.t - before.t) / (last.slope - before.slope);
     if (stalls || !(rises.t < t && t < falls.t)) t = 0.5 * (rises.t + falls.t);
-    if (++looks_ > kMostLooks) return std::nullopt;
+    if (--looks_left_ < 0) return std::nullopt;
     const ChordSample sample = sample_at(t);
     if (!sample.chord) {
-      note_gap(t, b.t - a.t);
+      if (!passes_gaps_) note_gap(t, b.t - a.t);
       return std::nullopt;
     }
     const Touched here = touched(sample);
@@ -299,6 +297,32 @@ std::optional<HighestEnd::Touched> HighestEnd::summit_between(const Touched& a, 
 // Else it is within rounding of the surface, or of an end of the run.
 void HighestEnd::note_gap(double t, double dt) {
   if (motion_.turn() > 0.0 && dt * motion_.travel() > 10.0 * kTangentMotion) gap_ = t;
+}
+
+// Between both samples, but for what is around a moment without a chord.
+void HighestEnd::pass_gap(const Touched& a, double t, const Touched& b, int depth, bool is_sought) {
+  constexpr int kMostPassed = 16;
+  if (++passed_ > kMostPassed || !((b.t - a.t) * motion_.travel() > 10.0 * kTangentMotion)) return;
+  const Touched before = touched(last_chord(a, t)), after = touched(last_chord(b, t));
+  const bool later_first = b.t - after.t > before.t - a.t;
+  if (later_first) close_in(after, b, depth + 1, is_sought);
+  close_in(a, before, depth + 1, is_sought);
+  if (!later_first) close_in(after, b, depth + 1, is_sought);
+}
+
+// The last moment with a chord on the way to one without.
+ChordSample HighestEnd::last_chord(const Touched& inside, double outside) const {
+  ChordSample last = sample_at(inside.t);
+  while (std::abs(outside - last.t) * motion_.travel() > kTangentMotion) {
+    const ChordSample middle = sample_at(0.5 * (last.t + outside));
+    if (middle.t == last.t || middle.t == outside) break;
+    if (middle.chord) {
+      last = middle;
+    } else {
+      outside = middle.t;
+    }
+  }
+  return last;
 }
 
 // Of a body that does not turn the end of the chord is a concave function of time.

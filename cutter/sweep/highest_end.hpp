@@ -36,6 +36,14 @@ class HighestEnd {
   // No end is higher than that, it is known: where one is as high, nothing needs a proof.
   void stop_at(double ceiling) { ceiling_ = ceiling; }
 
+  // From now on there is no gap() any more: moments without a chord are passed over, so many of
+  // them, the longer part of the motion beside them first.
+  void pass_gaps() {
+    constexpr int kFewLooks = 1000;
+    passes_gaps_ = true;
+    looks_left_ = kFewLooks;
+  }
+
   // Looks between two samples with chords. Nothing is lost unless gap() has a value then.
   void search(const ChordSample& from, const ChordSample& to);
   // The same; returns the planes that touch the body at both.
@@ -86,6 +94,8 @@ class HighestEnd {
   void come_to_edge();
   void climb(double lo, double hi);
   void note_gap(double t, double dt);
+  void pass_gap(const Touched& a, double t, const Touched& b, int depth, bool is_sought);
+  [[nodiscard]] ChordSample last_chord(const Touched& inside, double outside) const;
 
   const Profile& body_;
   const SegmentMotion& motion_;
@@ -96,9 +106,12 @@ class HighestEnd {
   double best_t_ = 0.0;
   ProfileFace best_face_ = kTopFace;
   std::optional<double> gap_{};
+  bool passes_gaps_ = false;
+  int passed_ = 0;
   // The last two samples that the best was one of, and that an edge is between.
   std::optional<std::pair<Touched, Touched>> beside_edge_{};
-  int looks_ = 0;
+  // A search that needs more runs along the surface within rounding.
+  int looks_left_ = 20000;
 };
 
 }  // namespace frustum::cutter

@@ -63,6 +63,11 @@ void append_swept_intervals(const Profile& body, const SegmentMotion& motion, co
     const Chord inside = overlapped(known, *times.samples()[i].chord);
     HighestEnd lo(body, motion, ray, false, -inside.lo);
     HighestEnd hi(body, motion, ray, true, inside.hi);
+    // A body that turns may slide along the ray within rounding: gaps without end.
+    if (gaps == kMostGaps) {
+      lo.pass_gaps();
+      hi.pass_gaps();
+    }
     lo.offer(times.samples()[i]);
     hi.offer(times.samples()[i]);
     std::size_t next = i + 1;
@@ -70,10 +75,10 @@ void append_swept_intervals(const Profile& body, const SegmentMotion& motion, co
       const ChordSample from = times.samples()[next - 1], to = times.samples()[next];
       lo.search(from, to);
       hi.search(from, to);
-      if ((lo.gap() || hi.gap()) && gaps + 1 < kMostGaps) break;
+      if (lo.gap() || hi.gap()) break;
     }
-    // A body that turns may slide along the ray within rounding: gaps without end.
-    if ((lo.gap() || hi.gap()) && ++gaps < kMostGaps) {
+    if (lo.gap() || hi.gap()) {
+      ++gaps;
       times.insert(next - 1, lo.gap() ? *lo.gap() : *hi.gap());
       continue;  // the run is shorter now
     }

@@ -1,6 +1,9 @@
 // Rays that once were answered wrongly, or never: found by proofs of surface points.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "cutter/search/swept_cutter.hpp"
 #include "tests/cutter/cutter_kinds.hpp"
 #include "tests/cutter/random_paths.hpp"
@@ -44,6 +47,69 @@ TEST(AwkwardChords, EndOnAHollowedArcToTheLastBit) {
     for (const Interval& i : covered.intervals()) {
       EXPECT_NEAR(distance("waisted", path.poses[0], ray.at(i.lo)), 0.0, 1e-7) << k;
       EXPECT_NEAR(distance("waisted", path.poses[0], ray.at(i.hi)), 0.0, 1e-7) << k;
+    }
+  }
+}
+
+// How far a place is inside a body of cones at a pose: by both height and radius.
+double depth_in(const cutter::Profile& body, const kinematics::ToolPose& pose, const Vec3& place) {
+  const Vec3 m = place - pose.tip;
+  const double z = m.dot(pose.axis), rho = (m - z * pose.axis).norm();
+  double depth = std::min(z - body.bottom(), body.height() - z);
+  for (const cutter::Zone& zone : body.zones())
+    depth = std::min(depth, zone.radius + zone.slope * (z - zone.z_lo) - rho);
+  return depth;
+}
+
+TEST(AwkwardChords, OfRaysAlongAFlankOrNearlySo) {
+  using cutter::cone_zone;
+  const cutter::Profile bodies[] = {
+      cutter::Profile({cone_zone(0.0, 5.0, 0.0, 5.0), cone_zone(5.0, 5.0, 5.0, 40.0)}),
+      cutter::Profile({cone_zone(3.0, 8.0, 0.0, 28.356)}),
+      cutter::Profile({cone_zone(6.0, 1.0, 0.0, 20.0)})};
+  constexpr double kRounding = 1e-6;  // mm
+  Draw draw(7, 91);
+  for (const cutter::Profile& body : bodies) {
+    const cutter::Zone& flank = body.zones().front();
+    for (int k = 0; k < 300; ++k) {
+      const Vec3 axis = draw.direction(), side = perpendicular_to(axis);
+      const kinematics::ToolPose pose{draw.point(Vec3(-9, -9, -9), Vec3(9, 9, 9)), axis};
+      const double turned = k % 2 == 0 ? 0.0 : draw.decades(1e-17, 1e-3);
+      const Vec3 along = (axis + flank.slope * side + turned * axis.cross(side)).normalized();
+      const Vec3 place = pose.tip + (flank.radius + draw.between(-20.0, 20.0)) * side;
+      const Ray ray{place, k % 3 == 0 ? along : Vec3(-along)};
+      const auto chord = body.chord(pose, ray);
+      for (double s = -60.0; s <= 60.0; s += 0.1) {
+        const bool inside = chord && s > chord->lo && s < chord->hi;
+        const double depth = depth_in(body, pose, ray.at(s));
+        if (std::abs(depth) < kRounding) continue;
+        ASSERT_EQ(inside, depth > 0.0) << k << " at " << s;
+      }
+    }
+  }
+}
+
+TEST(AwkwardChords, OfRaysNearlyAlongTheAxisEndOnTheBody) {
+  // The nearest place to the axis may be metres away.
+  const cutter::Profile chamfer(
+      {cutter::cone_zone(1.08, 4.48, 0.0, 0.0958), cutter::cone_zone(4.48, 4.48, 0.0958, 75.5)});
+  const cutter::Profile drill(
+      {cutter::cone_zone(0.0, 3.0, 0.0, 1.8), cutter::cone_zone(3.0, 3.0, 1.8, 400.0)});
+  Draw draw(8, 91);
+  for (const cutter::Profile* body : {&chamfer, &drill}) {
+    const double radius = body->max_radius();
+    for (int k = 0; k < 3000; ++k) {
+      const Vec3 axis = draw.direction(), side = perpendicular_to(axis);
+      const kinematics::ToolPose pose{draw.point(Vec3(-9, -9, -9), Vec3(9, 9, 9)), axis};
+      // By the rim, or by the tip.
+      const double beside = k % 3 == 0 ? 0.0 : radius * (1.0 - draw.decades(1e-6, 0.5));
+      const Vec3 place = pose.tip + beside * side;
+      const double lean = k % 2 == 0 ? 0.0 : draw.decades(1e-9, 0.2);
+      const Ray ray{place - 60.0 * axis, (axis + lean * axis.cross(side)).normalized()};
+      const auto chord = body->chord(pose, ray);
+      if (!chord) continue;
+      EXPECT_NEAR(depth_in(*body, pose, ray.at(chord->lo)), 0.0, 1e-12) << k << ' ' << lean;
+      EXPECT_NEAR(depth_in(*body, pose, ray.at(chord->hi)), 0.0, 1e-12) << k << ' ' << lean;
     }
   }
 }
