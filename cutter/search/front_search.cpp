@@ -14,14 +14,28 @@
 namespace frustum::cutter {
 namespace {
 
+// Whether the body surely stays farther from a point than that on its whole way: in the middle of
+// every part of the motion it is farther than it can come.
+bool stays_away(const Body& body, const SegmentMotion& motion, const Vec3& point, double by,
+                double middle = 0.5, double half = 0.5) {
+  constexpr double kShortest = 0.1;  // where less is left, solutions cost less
+  const double distance = body.distance(motion.at(middle), point);
+  if (distance > half * motion.travel() + by) return true;
+  if (!(distance > by) || half < kShortest) return false;
+  const double part = 0.5 * half;
+  return stays_away(body, motion, point, by, middle - part, part) &&
+         stays_away(body, motion, point, by, middle + part, part);
+}
+
 // Only what continues the swept interval from the front.
 class Front {
  public:
   Front(const RayQuestion& question, const Body& body, const EndPlanes& planes, double gap,
         SweptIntervalEnd& front)
-      : span_(question.span),
+      : ray_(question.ray),
+        body_(body),
+        span_(question.span),
         planes_(planes),
-        start_(question.ray.at(front.s), body),
         gap_(gap),
         front_(front) {}
 
@@ -32,7 +46,7 @@ class Front {
   [[nodiscard]] int change() const { return change_; }
 
   // What begins beyond the front is asked again when the front has come there.
-  static constexpr bool kSolvesWhole = false;
+  static constexpr bool kFollowsFront = true;
   [[nodiscard]] static RaySpan counted(const GroupReach& reach) {
     return {reach.lo, reach.hi - reach.hi_slack};
   }
@@ -47,16 +61,31 @@ class Front {
   }
   [[nodiscard]] double begins_by() const { return front_.s + gap_; }
 
-  // Whatever a group covers before the front does not matter.
+  // Whatever a group covers before the front does not matter. What no cutter of which is at the
+  // front begins beyond it, if at all.
   [[nodiscard]] QuadLimit limit(const GroupQuad& groups, const QuadSpan&) {
-    if (change_ == 0) return limit_at_start(groups);
+    const auto away = axes().are_away(groups);
+    QuadLimit limits;
+    bool is_open = false;
+    for (std::size_t lane = 0; lane < kSiblings; ++lane) {
+      if (away[lane]) limits[lane] = {.counts_representative = false, .lo = well_beyond()};
+      is_open = is_open || !(away[lane] || groups.is_free(lane));
+    }
+    if (change_ == 0 || !is_open) return limits;
     const Overreach over = plane().overreach(groups);
-    const auto of = [&](std::size_t lane) {
-      return GroupLimit{over.most[lane] <= 0.0,
-                        over.height[lane] < 0.0 || over.most[lane] == kInfinity,
-                        front_.s + over.most[lane]};
-    };
-    return {of(0), of(1), of(2), of(3)};
+    for (std::size_t lane = 0; lane < kSiblings; ++lane) {
+      if (away[lane]) continue;
+      limits[lane] = {over.most[lane] <= 0.0,
+                      over.height[lane] < 0.0 || over.most[lane] == kInfinity,
+                      front_.s + over.most[lane]};
+    }
+    return limits;
+  }
+  [[nodiscard]] bool leaves_for_later(std::uint32_t group, const SegmentMotion& motion) {
+    if (!stays_away(body_, motion, ray_.at(front_.s), 2.0 * gap_)) return false;
+    if (deferred_.empty() || deferred_.back().group != group)
+      deferred_.push_back({well_beyond(), group});
+    return true;
   }
   [[nodiscard]] double room(std::uint32_t, const ToolPose& from, const ToolPose& to) {
     if (change_ == 0) return -kInfinity;
@@ -127,31 +156,30 @@ class Front {
     front_ = end;
     by_pose_ = true;
     plane_.reset();
+    axes_.reset();
     ++change_;
   }
 
-  // What no cutter of which is at the front begins beyond it, if at all.
-  [[nodiscard]] QuadLimit limit_at_start(const GroupQuad& groups) const {
-    const auto away = start_.are_away(groups);
-    QuadLimit limits;
-    for (std::size_t lane = 0; lane < kSiblings; ++lane) {
-      if (!away[lane]) continue;
-      limits[lane].counts_representative = false;
-      limits[lane].lo = front_.s + 2.0 * gap_;
-    }
-    return limits;
+  // Farther than what is at the front may begin.
+  [[nodiscard]] double well_beyond() const { return front_.s + 2.0 * gap_; }
+  [[nodiscard]] const AxisDistance& axes() {
+    if (!axes_) axes_.emplace(ray_.at(front_.s), body_);
+    return *axes_;
   }
 
   struct Deferred {
     double lo;
     std::uint32_t group;
   };
+  const Ray& ray_;
+  const Body& body_;
   RaySpan span_;
   const EndPlanes& planes_;
-  AxisDistance start_;  // of where the front was at first
   double gap_;
   SweptIntervalEnd& front_;
-  std::optional<SeparatingPlane> plane_{};  // at the front; made when first asked for
+  // At the front; made when first asked for.
+  std::optional<AxisDistance> axes_{};
+  std::optional<SeparatingPlane> plane_{};
   std::vector<Deferred> deferred_{};
   std::vector<SweptInterval> ahead_{};
   Chord known_{};

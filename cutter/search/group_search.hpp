@@ -333,9 +333,12 @@ class GroupSearch {
 
   void solve(std::uint32_t group, std::uint32_t segment) {
     const SegmentMotion motion = motion_of(segment);
-    if ((Goal::kSolvesWhole || goal_.change() == 0) && is_away(group, motion)) return;
-    if (!Goal::kSolvesWhole)
+    if constexpr (Goal::kFollowsFront) {
+      if (goal_.leaves_for_later(group, motion)) return;
       fetch(&question_.path->blocks[question_.path->segments[segment].block], 1);
+    } else {
+      if (is_away(group, motion)) return;
+    }
     if (!has_solved(segment)) solve_parts(segment, motion);
     const auto sections = sweep_.body->sections();
     if (parts_.size() == sections.size()) return;
@@ -351,12 +354,13 @@ class GroupSearch {
     }
   }
 
-  // Whether the cutter where the motion begins, grown by all of its way, covers nothing wanted.
+  // Whether the cutter half way, grown by half of its way, covers nothing wanted.
   [[nodiscard]] bool is_away(std::uint32_t group, const SegmentMotion& motion) {
     constexpr double kRounding = 1e-9;  // mm
     GroupReach reach = kNoReach;
+    const ToolPose middle = motion.at(0.5);
     for (const Profile& section : sweep_.body->sections()) {
-      const auto grown = section.chord(motion.at(0.0), question_.ray, motion.travel() + kRounding);
+      const auto grown = section.chord(middle, question_.ray, 0.5 * motion.travel() + kRounding);
       if (!grown) continue;
       reach.lo = std::min(reach.lo, grown->lo);
       reach.hi = std::max(reach.hi, grown->hi);

@@ -38,7 +38,7 @@ class WholeSweptInterval {
   [[nodiscard]] static double promise(const GroupReach& reach) { return reach.hi - reach.lo; }
   [[nodiscard]] int change() const { return change_; }
 
-  static constexpr bool kSolvesWhole = false;
+  static constexpr bool kFollowsFront = false;
   [[nodiscard]] static RaySpan counted(const GroupReach& reach) {
     return {reach.lo + reach.lo_slack, reach.hi - reach.hi_slack};
   }

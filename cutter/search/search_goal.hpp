@@ -17,7 +17,9 @@
 //   void take_solved(interval)  what a segment covers: its own ends
 //   span<const Chord> known() is covered anyway
 //   span<const Chord> floors() ends of segments inside these need not be exact
-//   kSolvesWhole              a solution finds all of a segment's ends, whatever is covered: costly
+//   kFollowsFront             only what is at one place of the ray counts now; then also
+//   bool leaves_for_later(group, motion)  does a segment surely cover nothing there? Its group is
+//                             asked again when the place has moved
 //   bool wants_piece(group, lo, hi)  could a piece of ray still add anything?
 //   double begins_by()        what begins beyond adds nothing before more is covered
 //   int change()              another number whenever more is covered

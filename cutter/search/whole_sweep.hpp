@@ -53,7 +53,7 @@ class WholeSweep {
   void settle(std::uint32_t segment);
 
   // As GroupSearch asks them.
-  static constexpr bool kSolvesWhole = true;
+  static constexpr bool kFollowsFront = false;
   [[nodiscard]] const RaySpan& span() const { return question_.span; }
   [[nodiscard]] static bool wants_lo(double) { return true; }
   [[nodiscard]] static double promise(const GroupReach& reach) { return reach.hi - reach.lo; }
