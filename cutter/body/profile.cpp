@@ -18,7 +18,7 @@ struct ToolRay {
   double bend = 0.0;
   double v2 = 0.0;
   double z0 = 0.0;
-  double dz = 0.0;
+  double dz = 0.0, per_dz = 0.0;
   Vec3 w0 = Vec3::Zero(), v = Vec3::Zero();  // across the axis: the place, and the way along s
 };
 
@@ -35,7 +35,7 @@ ToolRay in_tool_terms(const ToolPose& pose, const Ray& ray, double middle) {
   const bool along = v2 < kNearlyAlong;
   const double s0 = along ? (middle - mz) / dz : -w.dot(v) / v2;
   const Vec3 w0 = w + s0 * v;
-  return {s0, w0.squaredNorm(), along ? w0.dot(v) : 0.0, v2, mz + s0 * dz, dz, w0, v};
+  return {s0, w0.squaredNorm(), along ? w0.dot(v) : 0.0, v2, mz + s0 * dz, dz, 1.0 / dz, w0, v};
 }
 
 struct Span {
@@ -51,8 +51,8 @@ Span overlap(const Span& a, const Span& b) { return {std::max(a.lo, b.lo), std::
 // z_lo <= z0 + dz u <= z_hi.
 Span slab_span(const ToolRay& ray, double z_lo, double z_hi) {
   if (ray.dz == 0.0) return ray.z0 < z_lo || ray.z0 > z_hi ? kNothing : Span{};
-  const double a = (z_lo - ray.z0) / ray.dz;
-  const double b = (z_hi - ray.z0) / ray.dz;
+  const double a = (z_lo - ray.z0) * ray.per_dz;
+  const double b = (z_hi - ray.z0) * ray.per_dz;
   return {std::min(a, b), std::max(a, b)};
 }
 
@@ -91,7 +91,9 @@ Span cone_span(const ToolRay& ray, double radius, double slope, double z_lo) {
   const double scale = ray.v2 + e * e;
   if (scale < 1e-30) return c > 0.0 || r0 < 0.0 ? kNothing : Span{};
   // b^2 - a c, without what cancels of rays along the axis and by the apex.
-  const double disc = (r0 * ray.v - e * ray.w0).squaredNorm() - ray.w0.cross(ray.v).squaredNorm();
+  const double disc =
+      ray.bend == 0.0 ? ray.v2 * (r0 * r0 - ray.rho2) + e * e * ray.rho2
+                      : (r0 * ray.v - e * ray.w0).squaredNorm() - ray.w0.cross(ray.v).squaredNorm();
   // The ray is steeper than the flank (or as steep): it stays inside once it is.
   if (a <= 1e-14 * scale) {
     const double q = -(b + std::copysign(std::sqrt(std::max(0.0, disc)), b));

@@ -205,15 +205,16 @@ class Builder {
   [[nodiscard]] Spread spread_of(const Portion& all) const {
     const std::uint32_t first = all.first, count = all.count;
     Scatter tips, axes;
-    const Vec3 centre = from(first).tip;  // keeps the products small
+    const ToolPose& start = from(first);
     bool turns = false;
-    for (std::uint32_t i = first; i < first + count; i += 1 + count / kSampled) {
-      tips.add(from(i).tip - centre);
-      tips.add(to(i).tip - centre);
-      axes.add(reach_ * from(i).axis);
-      axes.add(reach_ * to(i).axis);
-      turns = turns || from(i).axis != from(first).axis || to(i).axis != from(first).axis;
-    }
+    // From the first pose, which keeps the products small. Ends of one are mostly another's start.
+    const auto add = [&](const ToolPose& pose) {
+      tips.add(pose.tip - start.tip);
+      axes.add(reach_ * (pose.axis - start.axis));
+      turns = turns || pose.axis != start.axis;
+    };
+    for (std::uint32_t i = first; i < first + count; i += 1 + count / kSampled) add(from(i));
+    add(to(first + count - 1));
     Eigen::SelfAdjointEigenSolver<Mat3> places, turning;
     places.computeDirect(tips.covariance());
     Spread spread{places.eigenvectors(), places.eigenvectors().col(2)};

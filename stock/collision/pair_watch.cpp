@@ -66,17 +66,34 @@ void PairWatch::follow(const AxisPositions& from, const AxisVertex& vertex) {
       look(u < 1.0 ? part_way(from, vertex.q, u) : vertex.q, vertex.move);
       continue;
     }
-    if (is_proven(vertex.q)) return;
-    // The bound is convex along the way: it holds up to one place.
-    double proven = u, open = 1.0;
-    constexpr int kHalvings = 40;  // to where rounding ends
-    for (int k = 0; k < kHalvings; ++k) {
-      const double middle = 0.5 * (proven + open);
-      (is_proven(part_way(from, vertex.q, middle)) ? proven : open) = middle;
-    }
-    u = proven > u ? proven : open;
+    if (spare_at(vertex.q) > 0.0) return;
+    u = proven_to(from, vertex.q, u);
     look(u < 1.0 ? part_way(from, vertex.q, u) : vertex.q, vertex.move);
   }
+}
+
+// From u on the way to where it is not: the bound is convex along it and holds up to one place,
+// which secants come near to. If it does not even hold at u, a little beyond that.
+double PairWatch::proven_to(const AxisPositions& from, const AxisPositions& to, double u) const {
+  constexpr int kRounds = 40;
+  constexpr double kNear = 0.001;  // of what is proven
+  double proven = u, spare = spare_at(part_way(from, to, u));
+  double open = 1.0, lack = spare_at(to);
+  for (int k = 0; k < kRounds && open - proven > kNear * (proven - u); ++k) {
+    // Every third time half, so that both ends move.
+    const double share = spare > 0.0 && k % 3 != 2 ? spare / (spare - lack) : 0.5;
+    const double next = proven + share * (open - proven);
+    if (!(proven < next && next < open)) break;
+    const double there = spare_at(part_way(from, to, next));
+    if (there > 0.0) {
+      proven = next;
+      spare = there;
+    } else {
+      open = next;
+      lack = there;
+    }
+  }
+  return proven > u ? proven : open;
 }
 
 void PairWatch::look(const AxisPositions& q, std::uint32_t move) {

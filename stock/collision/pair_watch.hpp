@@ -63,9 +63,12 @@ class PairWatch {
   void meet(const AxisPositions& q, std::uint32_t move, const Separation& apart);
   void certify(const AxisPositions& q, const Separation& apart);
   [[nodiscard]] double limit_from(double lower) const;
-  [[nodiscard]] bool is_proven(const AxisPositions& q) const {
-    return clear_ - bound_.at(q) > limit_;
+  // Of the distance over the limit that is proven there; not more than 0: nothing is.
+  [[nodiscard]] double spare_at(const AxisPositions& q) const {
+    return clear_ - bound_.at(q) - limit_;
   }
+  [[nodiscard]] double proven_to(const AxisPositions& from, const AxisPositions& to,
+                                 double u) const;
 
   const kinematics::Machine* machine_;
   const SceneBody* a_;
