@@ -10,10 +10,15 @@
 // Source   : ours
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <boost/container/small_vector.hpp>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "cutter/search/lanes.hpp"
 #include "cutter/search/pose_group.hpp"
 #include "cutter/search/separating_plane.hpp"
 
@@ -42,22 +47,46 @@ class EndFan {
     const Vec3 off = end - end_;
     return {off, off.norm(), beyond};
   }
-  // Whether the group at place i of the list surely covers nothing beyond that end.
-  [[nodiscard]] bool holds(std::size_t i, const Beside& at) const {
-    if (i >= planes_.size()) return false;
-    const Plane& plane = planes_[i];
-    return plane.normal.dot(at.off) + plane.least - plane.turn * at.away >= kFanMargin &&
-           plane.normal.dot(at.beyond) > plane.turn;
-  }
+  // Whether groups of the list surely cover nothing beyond that end: bit k of held[b] of the one at
+  // place 4 b + k, from b = `from` on. `held` is as long as the list, rounded up.
+  void find_held(const Beside& at, std::size_t from, std::span<std::uint8_t> held,
+                 LaneChoice lanes = LaneChoice::best) const;
 
  private:
-  struct Plane {
-    Vec3 normal = Vec3::Zero();
-    double least = 0.0;  // of the end of the fan over it, at any pose of the group (mm)
-    double turn = 0.0;
+  // Of four groups, side by side; of none the normal is zero.
+  struct Planes {
+    std::array<DoubleFour, 3> normal{};
+    DoubleFour least{};  // of the end of the fan over it, at any pose of the group (mm)
+    DoubleFour turn{};
   };
+  template <class Lanes>
+  struct OfLanes;
+#ifdef FRUSTUM_HAS_FOUR_LANES
+  FRUSTUM_FOUR_LANES void find_held_four(const Beside& at, std::size_t from,
+                                         std::span<std::uint8_t> held) const;
+#endif
+
   Vec3 end_ = Vec3::Zero();
-  std::vector<Plane> planes_{};  // as the list of groups
+  std::vector<Planes> planes_{};  // as the list of groups
+};
+
+// Which groups of a list are held back, in the order of the list.
+class HeldGroups {
+ public:
+  explicit HeldGroups(std::size_t count) : count_(count), held_((count + 3) / 4, 0) {}
+
+  // The first from place i on that is not; the length of the list if there is none.
+  [[nodiscard]] std::size_t next_open(std::size_t i) const {
+    for (; i < count_ && (held_[i / 4] >> i % 4 & 1U) != 0; ++i) {
+      if (i % 4 == 0 && held_[i / 4] == 0xF) i += 3;
+    }
+    return std::min(i, count_);
+  }
+  [[nodiscard]] std::span<std::uint8_t> by_four() { return {held_.data(), held_.size()}; }
+
+ private:
+  std::size_t count_;
+  boost::container::small_vector<std::uint8_t, 64> held_;
 };
 
 // Fans of one list of groups, each for the ends near by that one face of the cutter makes.

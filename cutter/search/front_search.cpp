@@ -194,29 +194,30 @@ class FrontFans {
  public:
   FrontFans(Front& goal, const ToolSweep& sweep, std::span<const std::uint32_t> groups,
             EndFans* fans)
-      : goal_(goal), fans_(fans) {
+      : goal_(goal), fans_(fans), held_(groups.size()) {
     if (fans_ == nullptr || !goal_.moved()) return;
-    look(fans_->of(maker(), goal_.plane(), sweep.tree.quads(), groups));
+    look(fans_->of(maker(), goal_.plane(), sweep.tree.quads(), groups), 0);
   }
 
-  [[nodiscard]] bool hold(std::size_t i) {
-    if (fans_ == nullptr || !goal_.moved()) return false;
-    if (goal_.change() != change_) look(fans_->near_by(maker(), goal_.plane()));
-    return fan_ != nullptr && fan_->holds(i, at_);
+  // The first group from place i on that may add anything now.
+  [[nodiscard]] std::size_t next_open(std::size_t i) {
+    if (fans_ == nullptr || !goal_.moved()) return i;
+    if (goal_.change() != change_) look(fans_->near_by(maker(), goal_.plane()), i);
+    return held_.next_open(i);
   }
 
  private:
   [[nodiscard]] EndFans::Maker maker() const { return {goal_.end().section, goal_.end().face}; }
-  void look(const EndFan* fan) {
+  void look(const EndFan* fan, std::size_t from) {
     change_ = goal_.change();
-    fan_ = fan;
-    if (fan_ != nullptr) at_ = fan_->beside(goal_.plane().end(), goal_.plane().beyond());
+    const EndFan none;
+    const EndFan& by = fan != nullptr ? *fan : none;
+    by.find_held(by.beside(goal_.plane().end(), goal_.plane().beyond()), from / 4, held_.by_four());
   }
 
   Front& goal_;
   EndFans* fans_;
-  const EndFan* fan_ = nullptr;
-  EndFan::Beside at_{};
+  HeldGroups held_;
   int change_ = 0;
 };
 
@@ -254,7 +255,7 @@ class FrontSearch {
     int change = goal_.change();
     const auto is_by_pose = [&] { return goal_.change() != change && goal_.is_by_pose(); };
     FrontFans held(goal_, sweep_, groups, fans);
-    search_.open(groups, [&](std::size_t i) { return held.hold(i); });
+    search_.open(groups, [&](std::size_t i) { return held.next_open(i); });
     for (int i = 0; i < kMostClimbs; ++i) {
       search_.run_until(is_by_pose);
       if (!is_by_pose()) break;

@@ -50,21 +50,21 @@ class GroupSearch {
     if (!quads_.empty()) run(std::span(&group, 1));
   }
   void run(std::span<const std::uint32_t> groups) {
-    run(groups, [](std::size_t) { return false; });
+    run(groups, [](std::size_t i) { return i; });
   }
-  // As given, but that what promises most comes first. `is_held(i)`: does group i add nothing now?
-  template <class IsHeld>
-  void run(std::span<const std::uint32_t> groups, const IsHeld& is_held) {
-    open(groups, is_held);
+  // As given, but that what promises most comes first. `next_open(i)`: the first of them from place
+  // i on that may add anything now.
+  template <class NextOpen>
+  void run(std::span<const std::uint32_t> groups, const NextOpen& next_open) {
+    open(groups, next_open);
     finish();
   }
 
   // The same in steps: what groups promise; on until this is so, if ever; all that is left.
-  template <class IsHeld>
-  void open(std::span<const std::uint32_t> groups, const IsHeld& is_held) {
+  template <class NextOpen>
+  void open(std::span<const std::uint32_t> groups, const NextOpen& next_open) {
     Look look;
-    for (std::size_t i = 0; i < groups.size(); ++i) {
-      if (is_held(i)) continue;
+    for (std::size_t i = next_open(0); i < groups.size(); i = next_open(i + 1)) {
       // There is something for every ray in the root.
       const bool is_root = groups[i] == 0 && quads_.front().count[0] == 0;
       is_root ? consider(quads_.front().next[0]) : consider(groups[i], look);

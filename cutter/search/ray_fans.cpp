@@ -4,31 +4,29 @@
 
 namespace frustum::cutter {
 
-bool RayFans::hold(std::size_t i) {
-  if (fans_.empty()) return false;
-  if (goal_.change() != change_) look();
-  return std::ranges::any_of(held_, [&](const Held& by) {
-    return (by.hi == nullptr || by.hi->holds(i, by.at_hi)) &&
-           (by.lo == nullptr || by.lo->holds(i, by.at_lo));
-  });
-}
-
-void RayFans::look() {
+// By any piece of what is covered, before both of its ends that are within the span.
+void RayFans::look(std::size_t from) {
   change_ = goal_.change();
-  held_.clear();
   const Ray& ray = question_.ray;
+  const std::span<std::uint8_t> held = held_.by_four();
+  std::ranges::fill(held.subspan(from / 4), std::uint8_t{0});
+  HeldGroups by_hi = held_, by_lo = held_;
   for (const Chord& piece : goal_.known()) {
     for (const CoverFan& fan : fans_) {
-      Held by;
-      if (piece.hi < question_.span.hi) {
-        by.hi = &fan.hi;
-        by.at_hi = fan.hi.beside(ray.at(piece.hi), ray.direction);
+      const bool has_hi = piece.hi<question_.span.hi, has_lo = piece.lo> question_.span.lo;
+      if (has_hi) {
+        const auto at = fan.hi.beside(ray.at(piece.hi), ray.direction);
+        fan.hi.find_held(at, from / 4, by_hi.by_four());
       }
-      if (piece.lo > question_.span.lo) {
-        by.lo = &fan.lo;
-        by.at_lo = fan.lo.beside(ray.at(piece.lo), -ray.direction);
+      if (has_lo) {
+        const auto at = fan.lo.beside(ray.at(piece.lo), -ray.direction);
+        fan.lo.find_held(at, from / 4, by_lo.by_four());
       }
-      held_.push_back(by);
+      for (std::size_t b = from / 4; b < held.size(); ++b) {
+        const unsigned hi = has_hi ? by_hi.by_four()[b] : 0xFU;
+        const unsigned lo = has_lo ? by_lo.by_four()[b] : 0xFU;
+        held[b] = static_cast<std::uint8_t>(held[b] | (hi & lo));
+      }
     }
   }
 }

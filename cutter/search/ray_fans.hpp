@@ -7,7 +7,6 @@
 
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include "cutter/search/end_fan.hpp"
 #include "cutter/search/ray_search.hpp"
@@ -23,25 +22,24 @@ struct CoverFan {
 // What the fans of a tile hold back on one ray, as its ends are found.
 class RayFans {
  public:
-  RayFans(const RayQuestion& question, WholeSweep& goal, std::span<const CoverFan> fans)
-      : question_(question), goal_(goal), fans_(fans) {}
+  // `count`: of the groups in the list.
+  RayFans(const RayQuestion& question, WholeSweep& goal, std::span<const CoverFan> fans,
+          std::size_t count)
+      : question_(question), goal_(goal), fans_(fans), held_(count) {}
 
-  // Whether group number i of the list adds nothing to what is covered now.
-  [[nodiscard]] bool hold(std::size_t i);
+  // The first group from place i of the list on that may add to what is covered now.
+  [[nodiscard]] std::size_t next_open(std::size_t i) {
+    if (!fans_.empty() && goal_.change() != change_) look(i);
+    return held_.next_open(i);
+  }
 
  private:
-  // By one piece of what is covered; null: that end is beyond the span.
-  struct Held {
-    const EndFan* lo = nullptr;
-    const EndFan* hi = nullptr;
-    EndFan::Beside at_lo{}, at_hi{};
-  };
-  void look();
+  void look(std::size_t from);
 
   const RayQuestion& question_;
   WholeSweep& goal_;
   std::span<const CoverFan> fans_;
-  std::vector<Held> held_{};
+  HeldGroups held_;
   int change_ = -1;
 };
 

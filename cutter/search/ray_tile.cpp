@@ -180,9 +180,9 @@ class TileSearch {
         if (next && std::ranges::find(hints_, *next) == hints_.end()) search.solve_parts(*next);
       }
     }
-    RayFans held(question, goal, fans);
+    RayFans held(question, goal, fans, last - first);
     search.run(std::span(lists_).subspan(first, last - first),
-               [&](std::size_t i) { return held.hold(i); });
+               [&](std::size_t i) { return held.next_open(i); });
     while (const auto segment = goal.unsolved()) {
       search.solve_parts(*segment);
       goal.settle(*segment);

@@ -150,8 +150,12 @@ TEST(EndFanLaws, NothingIsCoveredBeyondAnEndThatAFanHoldsBack) {
         const Vec3 direction =
             beside < 4 ? ray.direction : (ray.direction + 0.5 * draw.direction()).normalized();
         const EndFan::Beside at = fan.beside(place, direction);
+        std::vector<std::uint8_t> holds((groups.size() + 3) / 4), by_two = holds;
+        fan.find_held(at, 0, holds);
+        fan.find_held(at, 0, by_two, LaneChoice::two);
+        EXPECT_EQ(holds, by_two);
         for (std::size_t i = 0; i < groups.size(); ++i) {
-          if (!fan.holds(i, at)) {
+          if ((holds[i / 4] >> i % 4 & 1U) == 0) {
             ++open;
             continue;
           }
