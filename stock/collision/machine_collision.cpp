@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_group.h>
 
 #include <algorithm>
 #include <utility>
@@ -17,7 +18,7 @@ using kinematics::CommandedMove;
 using kinematics::CommandedProgram;
 using kinematics::EvenPart;
 
-constexpr std::size_t kVerticesAtOnce = 1U << 18U;  // some 20 MB
+constexpr std::size_t kVerticesAtOnce = 2048;
 
 bool both_of_the_machine(const PairWatch& watch) {
   return watch.first().kind == SceneBody::Kind::machine &&
@@ -48,37 +49,50 @@ Watches watches_of(const MachineScene& scene) {
   return watches;
 }
 
-// The motion as vertices, handed on in portions.
+// The motion as vertices, followed in portions while the next ones are added.
 class Vertices {
  public:
   Vertices(const AxisPositions& start, std::vector<PairWatch>& pairs) : pairs_(pairs) {
-    vertices_.push_back({start, 0, 0});
+    next_.push_back({start, 0, 0});
   }
+  ~Vertices() { work_.wait(); }
+  Vertices(const Vertices&) = delete;
+  Vertices& operator=(const Vertices&) = delete;
 
   void add(const CommandedMove& move, std::uint32_t number) {
     constexpr kinematics::PolylineTolerance kEven{.linear = 0.005, .rotary = 1e-5};
     if (move.motion.straight()) {
-      vertices_.push_back({move.motion.end(), number, move.tool});
+      next_.push_back({move.motion.end(), number, move.tool});
     } else {
       for (const EvenPart& part :
            kinematics::even_parts([&move](double u) { return move.motion.at(u); },
                                   move.motion.least_parts(), move.motion.breaks(), kEven)) {
-        vertices_.push_back({part.to, number, move.tool});
+        next_.push_back({part.to, number, move.tool});
       }
     }
-    if (vertices_.size() >= kVerticesAtOnce) hand_on();
+    if (next_.size() >= kVerticesAtOnce) hand_on();
   }
 
-  void hand_on() {
-    if (vertices_.size() < 2) return;
-    tbb::parallel_for(std::size_t{0}, pairs_.size(),
-                      [&](std::size_t k) { pairs_[k].follow(vertices_); });
-    vertices_ = {vertices_.back()};
+  void finish() {
+    hand_on();
+    work_.wait();
   }
 
  private:
+  void hand_on() {
+    work_.wait();
+    if (next_.size() < 2) return;
+    std::swap(next_, at_work_);
+    next_ = {at_work_.back()};
+    work_.run([this] {
+      tbb::parallel_for(std::size_t{0}, pairs_.size(),
+                        [this](std::size_t k) { pairs_[k].follow(at_work_); });
+    });
+  }
+
   std::vector<PairWatch>& pairs_;
-  std::vector<AxisVertex> vertices_{};
+  std::vector<AxisVertex> next_{}, at_work_{};
+  tbb::task_group work_{};
 };
 
 // Of each motion: what is told of it, and its number in the path, in which those without a tool
@@ -159,7 +173,7 @@ class MachineCollisionSearch::State {
     MachineCollisions found{.bodies = scene_.stated};
     if (scene_.stated == 0) return found;
     for (const TouchingPair& pair : watches_.touching) found.warnings.push_back(touching(pair));
-    vertices_.hand_on();
+    vertices_.finish();
     const kinematics::GeometricErrors none;
     const kinematics::ForwardChain chain(*scene_.machine, none, 0.0);
     const Pose workpiece_from_table = setup.table_from_workpiece.inverse();

@@ -1,13 +1,27 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "stock/mesh/open_mesh.hpp"
 #include "stock/mesh/surface_mesh.hpp"
+#include "stock/mesh/triangle_links.hpp"
 
 namespace frustum::stock {
 namespace {
+
+// Whether so many triangles meet at a vertex that linking them takes long.
+bool has_wide_fans(const SurfaceMesh& mesh) {
+  constexpr std::uint32_t kWide = 256;
+  std::vector<std::uint32_t> at(mesh.vertices.size(), 0);
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t vertex : triangle) {
+      if (++at[vertex] > kWide) return true;
+    }
+  }
+  return false;
+}
 
 // True if no two triangles run along an edge in the same direction. OpenMesh would refuse such a
 // triangle too, but not without a line on stderr.
@@ -44,6 +58,29 @@ std::size_t count_components(const OpenMesh3& mesh) {
   return components;
 }
 
+// The same of a closed mesh.
+std::size_t count_components(const TriangleLinks& links) {
+  std::vector<bool> seen(links.triangles.size(), false);
+  std::vector<std::uint32_t> open;
+  std::size_t components = 0;
+  const auto reach = [&](std::uint32_t triangle) {
+    if (seen[triangle]) return;
+    seen[triangle] = true;
+    open.push_back(triangle);
+  };
+  for (std::uint32_t start = 0; start < links.triangles.size(); ++start) {
+    if (seen[start]) continue;
+    ++components;
+    reach(start);
+    while (!open.empty()) {
+      const std::uint32_t first = 3 * open.back();
+      open.pop_back();
+      for (std::uint32_t half = first; half < first + 3; ++half) reach(links.across[half] / 3);
+    }
+  }
+  return components;
+}
+
 // A point of the mesh: about it a part far from the origin loses no digits.
 Vec3 point_of(const SurfaceMesh& mesh) {
   return mesh.vertices.empty() ? Vec3(Vec3::Zero()) : mesh.vertices.front();
@@ -74,6 +111,13 @@ MeshMeasure measure(const SurfaceMesh& mesh) {
     found.area += twice_area / 2.0;
     // Height over the longest side, relative to it. A millionth: what single precision files keep.
     if (!(twice_area > 1e-6 * longest * longest)) ++found.degenerate_triangles;
+  }
+  const auto links =
+      has_wide_fans(mesh) ? std::nullopt : linked(mesh.triangles, mesh.vertices.size());
+  if (links) {
+    found.is_closed = found.is_manifold = true;
+    found.components = count_components(*links);
+    return found;
   }
   const bool edges_differ = directed_edges_differ(mesh);
   const OpenMesh3 built = open_mesh_of(mesh);
