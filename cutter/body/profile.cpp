@@ -30,7 +30,8 @@ ToolRay in_tool_terms(const ToolPose& pose, const Ray& ray, double middle) {
   const Vec3 v = ray.direction - dz * pose.axis;
   const double v2 = v.squaredNorm();
   // At small angles to the axis the nearest point to it is far away, where numbers are large: count
-  // from the middle of the cutter.
+  // from the middle of the cutter. The square of the sine: from 11.5 degrees on it is within five
+  // times the distance from the axis.
   constexpr double kNearlyAlong = 0.04;
   const bool along = v2 < kNearlyAlong;
   const double s0 = along ? (middle - mz) / dz : -w.dot(v) / v2;
@@ -90,13 +91,15 @@ Span cone_span(const ToolRay& ray, double radius, double slope, double z_lo) {
   const double c = ray.rho2 - r0 * r0;
   const double scale = ray.v2 + e * e;
   if (scale < 1e-30) return c > 0.0 || r0 < 0.0 ? kNothing : Span{};
-  // b^2 - a c, without what cancels of rays along the axis and by the apex.
+  // b^2 - a c, so that nothing cancels for rays along the axis or by the apex; what is counted from
+  // the nearest point to the axis has w0.v = 0.
   const double disc =
       ray.bend == 0.0 ? ray.v2 * (r0 * r0 - ray.rho2) + e * e * ray.rho2
                       : (r0 * ray.v - e * ray.w0).squaredNorm() - ray.w0.cross(ray.v).squaredNorm();
   // The ray is steeper than the flank (or as steep): it stays inside once it is.
   if (a <= 1e-14 * scale) {
     const double q = -(b + std::copysign(std::sqrt(std::max(0.0, disc)), b));
+    if (q == 0.0 && c > 0.0) return kNothing;  // along a flank, and beside it
     if (q == 0.0) return e > 0.0 ? Span{0.0, kInfinity} : Span{-kInfinity, 0.0};  // by the apex
     const double near = c / q;
     const double far = std::abs(a) <= 1e-14 * scale ? std::copysign(kInfinity, q) : q / a;

@@ -1,5 +1,7 @@
 #include "cutter/search/end_fan.hpp"
 
+#include <cassert>
+
 namespace frustum::cutter {
 
 template <class Lanes>
@@ -40,6 +42,7 @@ void EndFan::find_held(const Beside& at, std::size_t from, std::span<std::uint8_
     std::ranges::fill(held, std::uint8_t{0});
     return;
   }
+  assert(planes_.size() == held.size());
 #ifdef FRUSTUM_HAS_FOUR_LANES
   if (has_four_lanes(choice)) {
     find_held_four(at, from, held);

@@ -48,7 +48,7 @@ class EndFan {
     return {off, off.norm(), beyond};
   }
   // Whether groups of the list surely cover nothing beyond that end: bit k of held[b] of the one at
-  // place 4 b + k, from b = `from` on. `held` is as long as the list, rounded up.
+  // place 4 b + k, from b = `from` on. `held` has one byte for every four groups of the list.
   void find_held(const Beside& at, std::size_t from, std::span<std::uint8_t> held,
                  LaneChoice lanes = LaneChoice::best) const;
 

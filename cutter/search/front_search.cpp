@@ -1,5 +1,6 @@
 #include "cutter/search/front_search.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -14,14 +15,16 @@
 namespace frustum::cutter {
 namespace {
 
-// Whether the body surely stays farther from a point than that on its whole way: in the middle of
-// every part of the motion it is farther than it can come.
+// Whether the body surely stays farther than `by` from a point on its whole way: in the middle of
+// every part of the motion it is farther than it can come. At most 15 distances are asked.
 bool stays_away(const Body& body, const SegmentMotion& motion, const Vec3& point, double by,
                 double middle = 0.5, double half = 0.5) {
-  constexpr double kShortest = 0.1;  // where less is left, solutions cost less
+  // Of shorter parts, and nearer than this share of the way, a solution costs less than a proof.
+  constexpr double kShortest = 0.1, kNear = 0.15;
+  const double way = half * motion.travel();
   const double distance = body.distance(motion.at(middle), point);
-  if (distance > half * motion.travel() + by) return true;
-  if (!(distance > by) || half < kShortest) return false;
+  if (distance > way + by) return true;
+  if (half < kShortest || !(distance > kNear * way + by)) return false;
   const double part = 0.5 * half;
   return stays_away(body, motion, point, by, middle - part, part) &&
          stays_away(body, motion, point, by, middle + part, part);
@@ -74,6 +77,7 @@ class Front {
     if (change_ == 0 || !is_open) return limits;
     const Overreach over = plane().overreach(groups);
     for (std::size_t lane = 0; lane < kSiblings; ++lane) {
+      limits[lane].holds = over.most[lane] <= 0.0;
       if (away[lane]) continue;
       limits[lane] = {over.most[lane] <= 0.0,
                       over.height[lane] < 0.0 || over.most[lane] == kInfinity,
@@ -83,8 +87,11 @@ class Front {
   }
   [[nodiscard]] bool leaves_for_later(std::uint32_t group, const SegmentMotion& motion) {
     if (!stays_away(body_, motion, ray_.at(front_.s), 2.0 * gap_)) return false;
-    if (deferred_.empty() || deferred_.back().group != group)
+    if (!deferred_.empty() && deferred_.back().group == group) {
+      deferred_.back().lo = std::min(deferred_.back().lo, well_beyond());
+    } else {
       deferred_.push_back({well_beyond(), group});
+    }
     return true;
   }
   [[nodiscard]] double room(std::uint32_t, const ToolPose& from, const ToolPose& to) {

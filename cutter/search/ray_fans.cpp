@@ -13,7 +13,8 @@ void RayFans::look(std::size_t from) {
   HeldGroups by_hi = held_, by_lo = held_;
   for (const Chord& piece : goal_.known()) {
     for (const CoverFan& fan : fans_) {
-      const bool has_hi = piece.hi<question_.span.hi, has_lo = piece.lo> question_.span.lo;
+      const bool has_hi = piece.hi < question_.span.hi;
+      const bool has_lo = question_.span.lo < piece.lo;
       if (has_hi) {
         const auto at = fan.hi.beside(ray.at(piece.hi), ray.direction);
         fan.hi.find_held(at, from / 4, by_hi.by_four());

@@ -301,7 +301,6 @@ void HighestEnd::note_gap(double t, double dt) {
 
 // Between both samples, but for what is around a moment without a chord.
 void HighestEnd::pass_gap(const Touched& a, double t, const Touched& b, int depth, bool is_sought) {
-  constexpr int kMostPassed = 16;
   if (++passed_ > kMostPassed || !((b.t - a.t) * motion_.travel() > 10.0 * kTangentMotion)) return;
   const Touched before = touched(last_chord(a, t)), after = touched(last_chord(b, t));
   const bool later_first = b.t - after.t > before.t - a.t;

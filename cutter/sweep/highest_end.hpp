@@ -36,10 +36,10 @@ class HighestEnd {
   // No end is higher than that, it is known: where one is as high, nothing needs a proof.
   void stop_at(double ceiling) { ceiling_ = ceiling; }
 
-  // From now on there is no gap() any more: moments without a chord are passed over, so many of
-  // them, the longer part of the motion beside them first.
+  // Where a ray slides along the body there are gaps without end, of rounding. From now on there is
+  // no gap() any more: up to kMostPassed moments without a chord are passed over, of the two parts
+  // beside one the longer is searched first, and what is left after that and kFewLooks is lost.
   void pass_gaps() {
-    constexpr int kFewLooks = 1000;
     passes_gaps_ = true;
     looks_left_ = kFewLooks;
   }
@@ -97,6 +97,9 @@ class HighestEnd {
   void pass_gap(const Touched& a, double t, const Touched& b, int depth, bool is_sought);
   [[nodiscard]] ChordSample last_chord(const Touched& inside, double outside) const;
 
+  // A search that needs more looks runs along the surface within rounding; others need tens.
+  static constexpr int kMostLooks = 20000, kFewLooks = 1000, kMostPassed = 16;
+
   const Profile& body_;
   const SegmentMotion& motion_;
   const Ray& ray_;
@@ -110,8 +113,7 @@ class HighestEnd {
   int passed_ = 0;
   // The last two samples that the best was one of, and that an edge is between.
   std::optional<std::pair<Touched, Touched>> beside_edge_{};
-  // A search that needs more runs along the surface within rounding.
-  int looks_left_ = 20000;
+  int looks_left_ = kMostLooks;
 };
 
 }  // namespace frustum::cutter

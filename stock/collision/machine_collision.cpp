@@ -18,6 +18,7 @@ using kinematics::CommandedMove;
 using kinematics::CommandedProgram;
 using kinematics::EvenPart;
 
+// Enough for some milliseconds of work.
 constexpr std::size_t kVerticesAtOnce = 2048;
 
 bool both_of_the_machine(const PairWatch& watch) {
@@ -55,7 +56,13 @@ class Vertices {
   Vertices(const AxisPositions& start, std::vector<PairWatch>& pairs) : pairs_(pairs) {
     next_.push_back({start, 0, 0});
   }
-  ~Vertices() { work_.wait(); }
+  ~Vertices() {
+    work_.cancel();  // what is left is wanted by nobody
+    try {
+      work_.wait();
+    } catch (...) {
+    }
+  }
   Vertices(const Vertices&) = delete;
   Vertices& operator=(const Vertices&) = delete;
 

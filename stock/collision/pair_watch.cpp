@@ -72,25 +72,26 @@ void PairWatch::follow(const AxisPositions& from, const AxisVertex& vertex) {
   }
 }
 
-// From u on the way to where it is not: the bound is convex along it and holds up to one place,
-// which secants come near to. If it does not even hold at u, a little beyond that.
+// How far along the way, from u on, the proof holds: the bound is convex, so up to one place, which
+// secants come near to. Where rounding leaves nothing of that, a little beyond u.
 double PairWatch::proven_to(const AxisPositions& from, const AxisPositions& to, double u) const {
   constexpr int kRounds = 40;
   constexpr double kNear = 0.001;  // of what is proven
-  double proven = u, spare = spare_at(part_way(from, to, u));
-  double open = 1.0, lack = spare_at(to);
+  double proven = u, spare_there = spare_at(part_way(from, to, u));
+  double open = 1.0, spare_at_open = spare_at(to);
   for (int k = 0; k < kRounds && open - proven > kNear * (proven - u); ++k) {
     // Every third time half, so that both ends move.
-    const double share = spare > 0.0 && k % 3 != 2 ? spare / (spare - lack) : 0.5;
+    const bool halves = k % 3 == 2 || !(spare_there > 0.0);
+    const double share = halves ? 0.5 : spare_there / (spare_there - spare_at_open);
     const double next = proven + share * (open - proven);
     if (!(proven < next && next < open)) break;
-    const double there = spare_at(part_way(from, to, next));
-    if (there > 0.0) {
+    const double spare = spare_at(part_way(from, to, next));
+    if (spare > 0.0) {
       proven = next;
-      spare = there;
+      spare_there = spare;
     } else {
       open = next;
-      lack = there;
+      spare_at_open = spare;
     }
   }
   return proven > u ? proven : open;

@@ -70,9 +70,8 @@ struct MeshMeasure {
   std::size_t degenerate_triangles = 0;  // height below a millionth of the longest side
 };
 
-// Any indexed triangle mesh will do; only `vertices` and `triangles` are read. A mesh that is not a
-// closed 2-manifold is built in OpenMesh, which also complains on stderr. Precondition: indices are
-// within range.
+// Any indexed triangle mesh will do; only `vertices` and `triangles` are read. Precondition: indices
+// are within range. (OpenMesh complains on stderr of a mesh that is not manifold.)
 [[nodiscard]] MeshMeasure measure(const SurfaceMesh& mesh);
 
 }  // namespace frustum::stock

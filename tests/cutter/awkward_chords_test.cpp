@@ -76,7 +76,10 @@ TEST(AwkwardChords, OfRaysAlongAFlankOrNearlySo) {
       const kinematics::ToolPose pose{draw.point(Vec3(-9, -9, -9), Vec3(9, 9, 9)), axis};
       const double turned = k % 2 == 0 ? 0.0 : draw.decades(1e-17, 1e-3);
       const Vec3 along = (axis + flank.slope * side + turned * axis.cross(side)).normalized();
-      const Vec3 place = pose.tip + (flank.radius + draw.between(-20.0, 20.0)) * side;
+      // In the plane of the flank and the axis, or beside it.
+      const double beside = k % 5 < 3 ? 0.0 : draw.between(-4.0, 4.0);
+      const double outwards = k % 5 == 4 ? 0.0 : draw.between(-20.0, 20.0);
+      const Vec3 place = pose.tip + (flank.radius + outwards) * side + beside * axis.cross(side);
       const Ray ray{place, k % 3 == 0 ? along : Vec3(-along)};
       const auto chord = body.chord(pose, ray);
       for (double s = -60.0; s <= 60.0; s += 0.1) {
