@@ -67,21 +67,22 @@ class Front {
   // Whatever a group covers before the front does not matter. What no cutter of which is at the
   // front begins beyond it, if at all.
   [[nodiscard]] QuadLimit limit(const GroupQuad& groups, const QuadSpan&) {
-    const auto away = axes().are_away(groups);
     QuadLimit limits;
-    bool is_open = false;
-    for (std::size_t lane = 0; lane < kSiblings; ++lane) {
-      if (away[lane]) limits[lane] = {.counts_representative = false, .lo = well_beyond()};
-      is_open = is_open || !(away[lane] || groups.is_free(lane));
+    bool is_open = change_ == 0;
+    if (change_ > 0) {
+      const Overreach over = plane().overreach(groups);
+      for (std::size_t lane = 0; lane < kSiblings; ++lane) {
+        limits[lane] = {over.most[lane] <= 0.0,
+                        over.height[lane] < 0.0 || over.most[lane] == kInfinity,
+                        front_.s + over.most[lane]};
+        is_open = is_open || !(limits[lane].holds || groups.is_free(lane));
+      }
     }
-    if (change_ == 0 || !is_open) return limits;
-    const Overreach over = plane().overreach(groups);
+    if (!is_open) return limits;
+    const auto away = axes().are_away(groups);
     for (std::size_t lane = 0; lane < kSiblings; ++lane) {
-      limits[lane].holds = over.most[lane] <= 0.0;
-      if (away[lane]) continue;
-      limits[lane] = {over.most[lane] <= 0.0,
-                      over.height[lane] < 0.0 || over.most[lane] == kInfinity,
-                      front_.s + over.most[lane]};
+      if (away[lane] && !limits[lane].holds)
+        limits[lane] = {.counts_representative = false, .lo = well_beyond()};
     }
     return limits;
   }

@@ -63,8 +63,7 @@ class PairWatch {
   void meet(const AxisPositions& q, std::uint32_t move, const Separation& apart);
   void certify(const AxisPositions& q, const Separation& apart);
   [[nodiscard]] double limit_from(double lower) const;
-  // How much of the distance that is proven there is above the limit; nothing is proven if not above
-  // 0.
+  // By how much the distance that is proven there is above the limit: nothing is, if not above 0.
   [[nodiscard]] double spare_at(const AxisPositions& q) const {
     return clear_ - bound_.at(q) - limit_;
   }

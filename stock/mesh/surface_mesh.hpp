@@ -70,8 +70,8 @@ struct MeshMeasure {
   std::size_t degenerate_triangles = 0;  // height below a millionth of the longest side
 };
 
-// Any indexed triangle mesh will do; only `vertices` and `triangles` are read. Precondition: indices
-// are within range. (OpenMesh complains on stderr of a mesh that is not manifold.)
+// Any indexed triangle mesh will do; only `vertices` and `triangles` are read. Precondition:
+// indices are within range. (OpenMesh complains on stderr of a mesh that is not manifold.)
 [[nodiscard]] MeshMeasure measure(const SurfaceMesh& mesh);
 
 }  // namespace frustum::stock
