@@ -64,6 +64,10 @@ class Front {
   }
   [[nodiscard]] double begins_by() const { return front_.s + gap_; }
 
+  // From now on whether groups are at the front is asked wherever that is, not only where it begins:
+  // worth it for what fans leave of a list.
+  void ask_places() { asks_places_ = true; }
+
   // Whatever a group covers before the front does not matter. What no cutter of which is at the
   // front begins beyond it, if at all.
   [[nodiscard]] QuadLimit limit(const GroupQuad& groups, const QuadSpan&) {
@@ -78,7 +82,7 @@ class Front {
         is_open = is_open || !(limits[lane].holds || groups.is_free(lane));
       }
     }
-    if (!is_open) return limits;
+    if (!is_open || (change_ > 0 && !asks_places_)) return limits;
     const auto away = axes().are_away(groups);
     for (std::size_t lane = 0; lane < kSiblings; ++lane) {
       if (away[lane] && !limits[lane].holds)
@@ -193,6 +197,7 @@ class Front {
   Chord known_{};
   int change_ = 0;
   bool by_pose_ = false;
+  bool asks_places_ = false;
 };
 
 // What fans hold back of a list of groups as the front moves. A fan is made where the front is
@@ -262,6 +267,7 @@ class FrontSearch {
     constexpr int kMostClimbs = 4;  // other passes that the front may come to one by one
     int change = goal_.change();
     const auto is_by_pose = [&] { return goal_.change() != change && goal_.is_by_pose(); };
+    if (fans != nullptr) goal_.ask_places();
     FrontFans held(goal_, sweep_, groups, fans);
     search_.open(groups, [&](std::size_t i) { return held.next_open(i); });
     for (int i = 0; i < kMostClimbs; ++i) {

@@ -334,7 +334,7 @@ class GroupSearch {
   void solve(std::uint32_t group, std::uint32_t segment) {
     const SegmentMotion motion = motion_of(segment);
     if constexpr (Goal::kFollowsFront) {
-      if (goal_.leaves_for_later(group, motion)) return;
+      if (segment != likely_ && goal_.leaves_for_later(group, motion)) return;
       fetch(&question_.path->blocks[question_.path->segments[segment].block], 1);
     } else {
       if (is_away(group, motion)) return;
