@@ -64,8 +64,8 @@ class Front {
   }
   [[nodiscard]] double begins_by() const { return front_.s + gap_; }
 
-  // From now on whether groups are at the front is asked wherever that is, not only where it begins:
-  // worth it for what fans leave of a list.
+  // From now on whether groups are at the front is asked wherever that is, not only where it
+  // begins: worth it for what fans leave of a list.
   void ask_places() { asks_places_ = true; }
 
   // Whatever a group covers before the front does not matter. What no cutter of which is at the
