@@ -56,7 +56,7 @@ class Front {
   [[nodiscard]] bool wants(std::uint32_t group, const RaySpan& counted) {
     if (!(counted.lo <= counted.hi) || counted.hi <= front_.s) return false;
     if (counted.lo <= front_.s + gap_) return true;
-    deferred_.push_back({counted.lo, group});
+    defer(group, counted.lo);
     return false;
   }
   [[nodiscard]] bool wants_piece(std::uint32_t group, double lo, double hi) {
@@ -92,11 +92,7 @@ class Front {
   }
   [[nodiscard]] bool leaves_for_later(std::uint32_t group, const SegmentMotion& motion) {
     if (!stays_away(body_, motion, ray_.at(front_.s), 2.0 * gap_)) return false;
-    if (!deferred_.empty() && deferred_.back().group == group) {
-      deferred_.back().lo = std::min(deferred_.back().lo, well_beyond());
-    } else {
-      deferred_.push_back({well_beyond(), group});
-    }
+    defer(group, well_beyond());
     return true;
   }
   [[nodiscard]] double room(std::uint32_t, const ToolPose& from, const ToolPose& to) {
@@ -172,6 +168,14 @@ class Front {
     ++change_;
   }
 
+  // Until the front has come to where the first of what is put aside of the group begins.
+  void defer(std::uint32_t group, double lo) {
+    if (!deferred_.empty() && deferred_.back().group == group) {
+      deferred_.back().lo = std::min(deferred_.back().lo, lo);
+    } else {
+      deferred_.push_back({lo, group});
+    }
+  }
   // Farther than what is at the front may begin.
   [[nodiscard]] double well_beyond() const { return front_.s + 2.0 * gap_; }
   [[nodiscard]] const AxisDistance& axes() {
